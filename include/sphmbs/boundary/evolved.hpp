@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sphmbs/boundary/wall_model.hpp>
+
+namespace sphmbs::boundary {
+
+/// The paper's walls: virtual particles answer with the density and energy that they themselves
+/// evolved by eqs. (20) and (22), from the gas's initial state. Layers at the rim, whose support is
+/// cut off, lag behind the gas and bleed that lag inwards; see docs/theory.md.
+struct Evolved {
+  static constexpr bool evolves = true;
+
+  template <class N>
+  SPHMBS_INLINE riemann::State<N> facing(const riemann::State<N>&,
+                                         const riemann::State<N>& stored) const {
+    return stored;
+  }
+};
+
+static_assert(WallModel<Evolved>);
+
+}  // namespace sphmbs::boundary

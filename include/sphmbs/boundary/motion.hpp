@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include <sphmbs/core/vec.hpp>
+
+namespace sphmbs::boundary {
+
+/// Prescribed motion of virtual particles. `position` carries a point from time t0 to t1 and
+/// `velocity` is its rate; `set` is the number of the set of virtual particles.
+template <class M, class V = Vec<2, double>>
+concept Motion = std::is_trivially_copyable_v<M> &&
+    requires(const M motion, int set, V r, typename V::Component t) {
+      { motion.position(set, r, t, t) } -> std::same_as<V>;
+      { motion.velocity(set, r, t) } -> std::same_as<V>;
+    };
+
+/// All virtual particles stay where they are.
+struct Fixed {
+  template <int Dim, class T>
+  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, T, T) const {
+    return r;
+  }
+  template <int Dim, class T>
+  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>&, T) const {
+    return Vec<Dim, T>::all(T(0));
+  }
+};
+
+/// Uniform contraction towards the origin at a constant speed of the walls: r = l(t) / l(0) r(0),
+/// l(t) = length - 2 speed t, for every set. The sealed cavity of sect. 5.2.
+struct Contraction {
+  double length;  // between two opposite walls at time 0 [m]
+  double speed;   // of each wall, inwards [m/s]
+
+  template <int Dim, class T>
+  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, T t0, T t1) const {
+    return (length_at(t1) / length_at(t0)) * r;
+  }
+  template <int Dim, class T>
+  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>& r, T t) const {
+    return (T(-2) * static_cast<T>(speed) / length_at(t)) * r;
+  }
+
+  /// l(t) [m].
+  template <class T>
+  SPHMBS_INLINE T length_at(T t) const {
+    return static_cast<T>(length) - T(2) * static_cast<T>(speed) * t;
+  }
+};
+
+static_assert(Motion<Fixed> && Motion<Contraction>);
+
+}  // namespace sphmbs::boundary

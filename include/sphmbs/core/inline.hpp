@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Marks every function that a particle loop calls. Inlining all of them is what lets device
+/// compilers accept plain functors without annotating each one, and what keeps packs in registers.
+#define SPHMBS_INLINE inline __attribute__((always_inline))
+
+/// The same for a lambda: written after its parameter list.
+#define SPHMBS_INLINE_LAMBDA __attribute__((always_inline))

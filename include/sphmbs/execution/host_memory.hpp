@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+
+namespace sphmbs::execution {
+
+/// Memory of the policies that run on the host: aligned to cache lines, copies are plain copies.
+struct HostMemory {
+  static constexpr std::align_val_t alignment{64};
+
+  static void* allocate(std::size_t bytes) { return ::operator new(bytes, alignment); }
+  static void release(void* p) { ::operator delete(p, alignment); }
+  static void upload(void* there, const void* here, std::size_t bytes) {
+    if (bytes > 0) std::memcpy(there, here, bytes);
+  }
+  static void download(void* here, const void* there, std::size_t bytes) {
+    upload(here, there, bytes);
+  }
+};
+
+}  // namespace sphmbs::execution

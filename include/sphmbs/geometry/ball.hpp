@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include <sphmbs/geometry/shape.hpp>
+
+namespace sphmbs::geometry {
+
+/// Ball: an interval, a disc or a sphere with its inside [m].
+template <int Dim>
+struct Ball {
+  static constexpr int dim = Dim;
+  Vec<Dim> centre;
+  double radius;
+
+  double distance(Vec<Dim> x) const { return std::sqrt(norm2(x - centre)) - radius; }
+};
+
+static_assert(Shape<Ball<3>>);
+
+}  // namespace sphmbs::geometry

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include <sphmbs/core/expects.hpp>
+#include <sphmbs/core/math.hpp>
+#include <sphmbs/geometry/box.hpp>
+
+namespace sphmbs::geometry {
+
+/// What loop bodies need of a periodic space, in the fields' number type. Non-periodic axes have
+/// length 0 and a half length that no distance exceeds.
+template <int Dim, class T>
+struct Periodicity {
+  Vec<Dim, T> lower;   // of the box [m]
+  Vec<Dim, T> length;  // of the period, 0 if there is none [m]
+  Vec<Dim, T> half;    // half the period, or the largest number [m]
+
+  /// The separation to the nearest image, for separations shorter than 1.5 periods.
+  template <class N>
+  SPHMBS_INLINE Vec<Dim, N> nearest(Vec<Dim, N> d) const {
+    for (int k = 0; k < Dim; ++k) {
+      const N up = d[k] + N(length[k]);
+      const N down = d[k] - N(length[k]);
+      d[k] = math::select(d[k] > N(half[k]), down, math::select(d[k] < N(-half[k]), up, d[k]));
+    }
+    return d;
+  }
+
+  /// The image inside the box of a point that has left it by less than a period, eq. of sect. 3.1.
+  SPHMBS_INLINE Vec<Dim, T> wrap(Vec<Dim, T> r) const {
+    for (int k = 0; k < Dim; ++k) {
+      if (length[k] > 0) {
+        if (r[k] < lower[k]) r[k] += length[k];
+        if (r[k] >= lower[k] + length[k]) r[k] -= length[k];
+      }
+    }
+    return r;
+  }
+
+  /// True where a particle at r can have neighbours across the border within `reach`.
+  SPHMBS_INLINE bool near_border(const Vec<Dim, T>& r, T reach) const {
+    bool near = false;
+    for (int k = 0; k < Dim; ++k)
+      near = near || (length[k] > 0 &&
+                      (r[k] < lower[k] + reach || r[k] > lower[k] + length[k] - reach));
+    return near;
+  }
+};
+
+/// The space that gas lives in: a box, and the axes along which it repeats, which are the periodic
+/// in- and outflow of sect. 3.1. Walls may lie outside the box along the other axes.
+template <int Dim>
+struct Domain {
+  Box<Dim> box;
+  std::array<bool, Dim> periodic{};
+
+  template <class T>
+  Periodicity<Dim, T> periodicity() const {
+    Periodicity<Dim, T> p;
+    for (int k = 0; k < Dim; ++k) {
+      const bool wraps = periodic[static_cast<std::size_t>(k)];
+      p.lower[k] = static_cast<T>(box.lower[k]);
+      p.length[k] = wraps ? static_cast<T>(box.length(k)) : T(0);
+      p.half[k] = wraps ? static_cast<T>(box.length(k) / 2) : T(1e30);
+    }
+    return p;
+  }
+
+  /// @throws InvalidInput if the box is empty or not finite.
+  void check() const {
+    for (int k = 0; k < Dim; ++k)
+      expects(std::isfinite(box.length(k)) && box.length(k) > 0, "domain length", box.length(k),
+              "positive and finite [m]");
+  }
+};
+
+}  // namespace sphmbs::geometry

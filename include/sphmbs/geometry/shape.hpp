@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+
+#include <sphmbs/core/vec.hpp>
+
+/// Solids by signed distance, and the space they live in.
+namespace sphmbs::geometry {
+
+/// A solid: `distance` is negative inside, positive outside, zero on the surface [m]. Unions and
+/// differences bound the distance from below, which is all that filling needs.
+template <class S>
+concept Shape = requires(const S shape, Vec<S::dim> x) {
+  { S::dim } -> std::convertible_to<int>;
+  { shape.distance(x) } -> std::same_as<double>;
+};
+
+/// Points in a or in b.
+template <Shape A, Shape B>
+struct Union {
+  static constexpr int dim = A::dim;
+  A a;
+  B b;
+  double distance(Vec<dim> x) const { return std::min(a.distance(x), b.distance(x)); }
+};
+
+/// Points in a and not in b.
+template <Shape A, Shape B>
+struct Difference {
+  static constexpr int dim = A::dim;
+  A a;
+  B b;
+  double distance(Vec<dim> x) const { return std::max(a.distance(x), -b.distance(x)); }
+};
+
+template <Shape A, Shape B>
+  requires(A::dim == B::dim)
+Union<A, B> operator|(A a, B b) {
+  return {a, b};
+}
+
+template <Shape A, Shape B>
+  requires(A::dim == B::dim)
+Difference<A, B> operator-(A a, B b) {
+  return {a, b};
+}
+
+}  // namespace sphmbs::geometry

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "sphmbs/io/vtp.hpp"
+
+namespace sphmbs {
+
+/// List of the files of a run with their times (.pvd), which ParaView opens as one animation.
+///
+/// The list on disk is complete and valid after construction and after every add(), so that a run
+/// can be watched, and can be read up to its last output if it ends early.
+class PvdCollection {
+ public:
+  /// Writes an empty list to `path`, replacing an earlier one: an output directory that cannot be
+  /// written is noticed before the run. Throws OutputError with path and reason.
+  explicit PvdCollection(std::filesystem::path path) : path_(std::move(path)) { write(); }
+
+  /// Appends a file at physical time `time` [s] and rewrites the list. `relative_file` is relative
+  /// to the directory of the list, with forward slashes. Throws std::invalid_argument if the time
+  /// is not finite, OutputError with path and reason if writing fails.
+  void add(double time, const std::string& relative_file) {
+    if (!std::isfinite(time)) {
+      throw std::invalid_argument("PvdCollection: the time of \"" + relative_file +
+                                  "\" is not finite");
+    }
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, time).ptr;
+    entries_ += "<DataSet timestep=\"" + std::string(digits, end) +
+                "\" group=\"\" part=\"0\" file=\"" + detail::xml_escaped(relative_file) + "\"/>\n";
+    write();
+  }
+
+ private:
+  void write() const {
+    const std::string text =
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        "<Collection>\n" +
+        entries_ + "</Collection>\n</VTKFile>\n";
+    const std::span<const std::byte> chunk = std::as_bytes(std::span(text));
+    detail::replace_file(path_, std::span(&chunk, 1));
+  }
+
+  std::filesystem::path path_;
+  std::string entries_;
+};
+
+}  // namespace sphmbs

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sphmbs/execution/scan.hpp>
+#include <sphmbs/neighbours/cell_grid.hpp>
+#include <sphmbs/neighbours/find_neighbours.hpp>
+
+namespace sphmbs::neighbours {
+
+namespace detail {
+
+/// A relaxed atomic count, legal in loop bodies of every policy.
+SPHMBS_INLINE std::uint32_t fetch_add(std::uint32_t* p, std::uint32_t v) {
+  return __atomic_fetch_add(p, v, __ATOMIC_RELAXED);
+}
+
+template <int Dim, class T>
+struct CountCells {
+  particles::FieldsView<Dim, T> fields;
+  CellGrid<Dim, T> grid;
+  std::uint32_t* count;
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    fetch_add(count + grid.cell(fields.position(i)), 1);
+  }
+};
+
+template <int Dim, class T>
+struct PlaceInCells {
+  particles::FieldsView<Dim, T> fields;
+  CellGrid<Dim, T> grid;
+  const std::uint32_t* first;
+  std::uint32_t* placed;
+  std::uint32_t* order;
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    const std::uint32_t c = grid.cell(fields.position(i));
+    order[first[c] + fetch_add(placed + c, 1)] = static_cast<std::uint32_t>(i);
+  }
+};
+
+struct Zero {
+  std::uint32_t* count;
+  SPHMBS_INLINE void operator()(std::size_t i) const { count[i] = 0; }
+};
+
+/// Sorts the members of a cell by id: the order in which threads placed them is forgotten.
+struct SortCell {
+  const std::uint32_t* first;
+  const std::uint32_t* id;
+  std::uint32_t* order;
+  SPHMBS_INLINE void operator()(std::size_t c) const {
+    for (std::uint32_t i = first[c] + 1; i < first[c + 1]; ++i) {
+      const std::uint32_t moved = order[i];
+      std::uint32_t j = i;
+      for (; j > first[c] && id[order[j - 1]] > id[moved]; --j) order[j] = order[j - 1];
+      order[j] = moved;
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Cell-linked domain decomposition (sect. 4.3): particles are kept sorted by cells of half a reach,
+/// neighbours are found among the cells around and listed once for all evaluations until particles
+/// have moved by more than the skin. Each h may differ; any set of axes may be periodic.
+template <int Dim, class T, execution::ExecutionPolicy Policy>
+class CellList {
+ public:
+  /// Sorts the particles and lists the neighbours of each, in the order of the cells. The result
+  /// does not depend on the number of threads.
+  /// @throws InvalidInput if a periodic axis is shorter than two reaches.
+  void rebuild(particles::Particles<Dim, T, Policy>& particles,
+               const geometry::Domain<Dim>& domain, const Reach& reach) {
+    check_reach(domain, reach);
+    const std::size_t n = particles.size();
+    const auto grid = CellGrid<Dim, T>::around(particles, domain, reach);
+    execution::Field<std::uint32_t, Policy> order(n);
+    sort(particles, grid, order.data());
+    particles.permute(order.data());
+
+    first_.resize_discarding(n + 1);
+    detail::FindNeighbours<Dim, T, Policy::template lanes<T>> find{
+        .fields = particles.fields(),
+        .grid = grid,
+        .space = domain.template periodicity<T>(),
+        .cell_first = cell_first_.data(),
+        .half_support = static_cast<T>(reach.support / 2),
+        .skin = static_cast<T>(reach.skin),
+        .border = static_cast<T>(reach.largest())};
+    Policy::for_each(n, detail::CountNeighbours{find, order.data()});
+    const std::uint64_t pairs = execution::exclusive_scan<Policy>(n, order.data(), first_.data());
+    // A little room to spare, since fresh memory for every new list would cost more than the list.
+    if (pairs > list_.size() || 2 * pairs < list_.size())
+      list_.resize_discarding(pairs + pairs / 64);
+    Policy::for_each(n, detail::ListNeighbours{find, first_.data(), list_.data()});
+  }
+
+  NeighbourView view() const { return {first_.data(), list_.data()}; }
+
+  /// Memory held [bytes].
+  std::size_t bytes() const { return first_.bytes() + list_.bytes() + cell_first_.bytes(); }
+
+ private:
+  void sort(particles::Particles<Dim, T, Policy>& particles, const CellGrid<Dim, T>& grid,
+            std::uint32_t* order) {
+    const std::size_t n = particles.size();
+    const std::size_t cells = grid.cells();
+    const auto fields = particles.fields();
+    execution::Field<std::uint32_t, Policy> count(cells);
+    cell_first_.resize_discarding(cells + 1);
+    Policy::for_each(cells, detail::Zero{count.data()});
+    Policy::for_each(n, detail::CountCells<Dim, T>{fields, grid, count.data()});
+    execution::exclusive_scan<Policy>(cells, count.data(), cell_first_.data());
+    Policy::for_each(cells, detail::Zero{count.data()});
+    Policy::for_each(n, detail::PlaceInCells<Dim, T>{fields, grid, cell_first_.data(),
+                                                     count.data(), order});
+    Policy::for_each(cells, detail::SortCell{cell_first_.data(), fields.id, order});
+  }
+
+  execution::Field<std::uint32_t, Policy> cell_first_;
+  execution::Field<std::uint64_t, Policy> first_;
+  execution::Field<std::uint32_t, Policy> list_;
+};
+
+}  // namespace sphmbs::neighbours

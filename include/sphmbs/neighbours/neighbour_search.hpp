@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/particles/particles.hpp>
+
+/// Who sees whom.
+namespace sphmbs::neighbours {
+
+/// Lists of neighbours that loop bodies see: those of particle a are list[first[a]] ...
+/// list[first[a + 1] - 1], without a itself.
+struct NeighbourView {
+  const std::uint64_t* first;
+  const std::uint32_t* list;
+};
+
+/// How far particles see: a pair is listed while its distance is below
+/// support (h_a + h_b) / 2 + skin, eq. (24).
+struct Reach {
+  double support;  // of the kernel, in smoothing lengths [-]
+  double skin;     // margin that lets particles move before the lists must be made anew [m]
+  double h_max;    // largest smoothing length [m]
+
+  double largest() const { return support * h_max + skin; }
+};
+
+/// What a search offers: `rebuild` may put the particles into another order, and then lists all
+/// pairs within reach, nearest images along periodic axes included.
+template <class S, int Dim, class T, class Policy>
+concept NeighbourSearch = requires(S search, particles::Particles<Dim, T, Policy>& particles,
+                                   const geometry::Domain<Dim>& domain, const Reach& reach) {
+  search.rebuild(particles, domain, reach);
+  { search.view() } -> std::same_as<NeighbourView>;
+  { search.bytes() } -> std::same_as<std::size_t>;
+};
+
+/// @throws InvalidInput where a periodic axis is too short for nearest images to be unique.
+template <int Dim>
+void check_reach(const geometry::Domain<Dim>& domain, const Reach& reach) {
+  for (int k = 0; k < Dim; ++k)
+    expects(!domain.periodic[static_cast<std::size_t>(k)] ||
+                domain.box.length(k) >= 2 * reach.largest(),
+            "periodic length", domain.box.length(k),
+            "at least two support radii, " + std::to_string(2 * reach.largest()) +
+                " m: lower the spacing or lengthen the domain");
+}
+
+}  // namespace sphmbs::neighbours

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <sphmbs/core/expects.hpp>
+#include <sphmbs/core/math.hpp>
+#include <sphmbs/core/vec.hpp>
+#include <sphmbs/particles/fields.hpp>
+
+namespace sphmbs::particles {
+
+/// State of the gas at a point.
+template <int Dim>
+struct State {
+  double rho;          // density [kg/m^3]
+  double p;            // pressure [Pa]
+  Vec<Dim> v = {};     // velocity [m/s]
+};
+
+/// Size of the particles of a lattice.
+struct Resolution {
+  double spacing;                // [m]
+  double smoothing_ratio = 1.25; // initial smoothing length / spacing, as in the paper [-]
+};
+
+/// The particles a simulation starts from, on the host, in the order they were added. Their index
+/// here is the particles' lasting `id`.
+template <int Dim>
+struct Cloud {
+  std::vector<Vec<Dim>> r;         // [m]
+  std::vector<Vec<Dim>> v;         // [m/s]
+  std::vector<double> rho;         // [kg/m^3]
+  std::vector<double> p;           // [Pa]
+  std::vector<double> h;           // [m]
+  std::vector<double> m;           // [kg]; planar [kg/m]
+  std::vector<std::uint8_t> set;   // gas, or the number of a set of virtual particles
+  int sets = 0;                    // sets of virtual particles so far
+
+  std::size_t size() const { return r.size(); }
+
+  std::size_t gas_count() const {
+    std::size_t n = 0;
+    for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
+    return n;
+  }
+
+  /// Adds gas, of mass rho spacing^Dim each.
+  /// @throws InvalidInput for a density, pressure or spacing that is not positive and finite.
+  void add_gas(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
+               const Resolution& resolution) {
+    add(points, state, resolution, gas);
+  }
+
+  /// Adds one set of virtual particles, a wall or a body, and returns its number. They start with
+  /// the gas's state, sect. 3.2.
+  /// @throws InvalidInput as `add_gas`, or if there are 255 sets already.
+  int add_virtual(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
+                  const Resolution& resolution) {
+    expects(sets < 255, "sets of virtual particles", sets + 1, "at most 255");
+    ++sets;
+    add(points, state, resolution, static_cast<std::uint8_t>(sets));
+    return sets;
+  }
+
+ private:
+  void add(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
+           const Resolution& resolution, std::uint8_t number) {
+    expects(std::isfinite(state.rho) && state.rho > 0, "density", state.rho, "positive [kg/m^3]");
+    expects(std::isfinite(state.p) && state.p > 0, "pressure", state.p, "positive [Pa]");
+    expects(std::isfinite(resolution.spacing) && resolution.spacing > 0, "spacing",
+            resolution.spacing, "positive [m]");
+    expects(resolution.smoothing_ratio >= 0.8 && resolution.smoothing_ratio <= 4,
+            "smoothing length / spacing", resolution.smoothing_ratio, "between 0.8 and 4");
+    const std::size_t n = size() + points.size();
+    r.insert(r.end(), points.begin(), points.end());
+    v.resize(n, state.v);
+    rho.resize(n, state.rho);
+    p.resize(n, state.p);
+    h.resize(n, resolution.smoothing_ratio * resolution.spacing);
+    m.resize(n, state.rho * math::power<Dim>(resolution.spacing));
+    set.resize(n, number);
+  }
+};
+
+}  // namespace sphmbs::particles

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sphmbs/core/vec.hpp>
+
+/// The gas's data: one array a field (structure of arrays), resident where the loops run.
+namespace sphmbs::particles {
+
+/// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ...
+inline constexpr std::uint8_t gas = 0;
+
+/// The state at the beginning of the step, as pointers that loop bodies see. Planar gas is per
+/// metre of depth: m in kg/m; on a line per square metre of section: kg/m^2.
+template <int Dim, class T>
+struct FieldsView {
+  T* r[Dim];          // position [m]
+  T* v[Dim];          // velocity [m/s]
+  T* rho;             // density [kg/m^3]
+  T* e;               // specific internal energy [J/kg]
+  T* h;               // smoothing length [m]
+  T* m;               // mass [kg]
+  std::uint32_t* id;  // place in the initial cloud; never changes
+  std::uint8_t* set;  // gas, or which set of virtual particles
+
+  SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
+  SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }
+  SPHMBS_INLINE void set_position(std::size_t i, const Vec<Dim, T>& x) const { put(r, i, x); }
+  SPHMBS_INLINE void set_velocity(std::size_t i, const Vec<Dim, T>& x) const { put(v, i, x); }
+
+  static SPHMBS_INLINE Vec<Dim, T> at(T* const (&field)[Dim], std::size_t i) {
+    Vec<Dim, T> x;
+    for (int k = 0; k < Dim; ++k) x[k] = field[k][i];
+    return x;
+  }
+  static SPHMBS_INLINE void put(T* const (&field)[Dim], std::size_t i, const Vec<Dim, T>& x) {
+    for (int k = 0; k < Dim; ++k) field[k][i] = x[k];
+  }
+};
+
+/// Rates of change, the left-hand sides of eq. (26), or a weighted sum of them over the stages of a
+/// step. For virtual particles, whose motion is prescribed, `v` is the force of the gas on the
+/// particle by its mass, and `r` its velocity, both at the last stage alone.
+template <int Dim, class T>
+struct RatesView {
+  T* r[Dim];             // [m/s], eq. (14)
+  T* v[Dim];             // [m/s^2], eq. (21)
+  T* rho;                // [kg/(m^3 s)], eq. (20)
+  T* e;                  // [W/kg], eq. (22)
+  T* h;                  // [m/s], eq. (23)
+  std::uint16_t* pairs;  // neighbours inside the support at the last evaluation
+};
+
+}  // namespace sphmbs::particles

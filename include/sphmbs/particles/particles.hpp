@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <sphmbs/core/expects.hpp>
+#include <sphmbs/execution/field.hpp>
+#include <sphmbs/particles/cloud.hpp>
+#include <sphmbs/particles/record.hpp>
+
+namespace sphmbs::particles {
+
+namespace detail {
+
+template <class T>
+struct Gather {
+  const T* from;
+  T* to;
+  const std::uint32_t* order;
+  SPHMBS_INLINE void operator()(std::size_t i) const { to[i] = from[order[i]]; }
+};
+
+}  // namespace detail
+
+/// Owns the fields of all particles, their rates, and the records of the current stage, in the
+/// memory of a policy.
+template <int Dim, class T, execution::ExecutionPolicy Policy>
+class Particles {
+ public:
+  template <class U>
+  using Field = execution::Field<U, Policy>;
+
+  /// @param energy  specific internal energy of a density and a pressure [J/kg]
+  /// @throws InvalidInput for an empty cloud or more than 2^32 - 1 particles.
+  template <class Energy>
+  Particles(const Cloud<Dim>& cloud, Energy energy) : size_(cloud.size()) {
+    expects(size_ > 0 && size_ < 0xffffffffu, "particles", size_, "between 1 and 2^32 - 1");
+    for (Field<T>* f : numbers()) *f = Field<T>(std::vector<T>(padded()));
+    const std::size_t n = size_;
+    std::vector<T> column(padded());
+    const auto put = [&](Field<T>& field, auto value) {
+      for (std::size_t i = 0; i < n; ++i) column[i] = static_cast<T>(value(i));
+      field.upload(column);
+    };
+    for (int k = 0; k < Dim; ++k) {
+      put(r_[k], [&](std::size_t i) { return cloud.r[i][k]; });
+      put(v_[k], [&](std::size_t i) { return cloud.v[i][k]; });
+    }
+    put(rho_, [&](std::size_t i) { return cloud.rho[i]; });
+    put(e_, [&](std::size_t i) { return energy(cloud.rho[i], cloud.p[i]); });
+    put(h_, [&](std::size_t i) { return cloud.h[i]; });
+    put(m_, [&](std::size_t i) { return cloud.m[i]; });
+    std::vector<std::uint32_t> id(n);
+    std::iota(id.begin(), id.end(), 0u);
+    id_ = Field<std::uint32_t>(id);
+    set_ = Field<std::uint8_t>(cloud.set);
+    pairs_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
+    records_ = Field<T>(n * record_size<Dim>);
+  }
+
+  std::size_t size() const { return size_; }
+
+  FieldsView<Dim, T> fields() {
+    FieldsView<Dim, T> f{.r = {},
+                         .v = {},
+                         .rho = rho_.data(),
+                         .e = e_.data(),
+                         .h = h_.data(),
+                         .m = m_.data(),
+                         .id = id_.data(),
+                         .set = set_.data()};
+    for (int k = 0; k < Dim; ++k) {
+      f.r[k] = r_[k].data();
+      f.v[k] = v_[k].data();
+    }
+    return f;
+  }
+
+  RatesView<Dim, T> rates() {
+    RatesView<Dim, T> f{.r = {},
+                        .v = {},
+                        .rho = rho_rate_.data(),
+                        .e = e_rate_.data(),
+                        .h = h_rate_.data(),
+                        .pairs = pairs_.data()};
+    for (int k = 0; k < Dim; ++k) {
+      f.r[k] = r_rate_[k].data();
+      f.v[k] = v_rate_[k].data();
+    }
+    return f;
+  }
+
+  T* records() { return records_.data(); }
+
+  /// Puts the particles into another order: the new particle i is the old order[i].
+  void permute(const std::uint32_t* order) {
+    for (Field<T>* f : numbers()) {
+      if (f == &scratch_) continue;
+      Policy::for_each(size_, detail::Gather<T>{f->data(), scratch_.data(), order});
+      f->swap(scratch_);
+    }
+    permute_small(id_, order);
+    permute_small(set_, order);
+  }
+
+  /// Memory held [bytes].
+  std::size_t bytes() {
+    std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes();
+    for (Field<T>* f : numbers()) b += f->bytes();
+    return b;
+  }
+
+ private:
+  // Loops read whole packs, so fields extend a pack's width beyond the last particle.
+  std::size_t padded() const { return size_ + 16; }
+
+  std::vector<Field<T>*> numbers() {
+    std::vector<Field<T>*> all{&rho_, &e_, &h_, &m_, &rho_rate_, &e_rate_, &h_rate_, &scratch_};
+    for (int k = 0; k < Dim; ++k)
+      for (Field<T>* f : {&r_[k], &v_[k], &r_rate_[k], &v_rate_[k]}) all.push_back(f);
+    return all;
+  }
+
+  template <class U>
+  void permute_small(Field<U>& field, const std::uint32_t* order) {
+    Field<U> sorted(size_);
+    Policy::for_each(size_, detail::Gather<U>{field.data(), sorted.data(), order});
+    field = std::move(sorted);
+  }
+
+  std::size_t size_;
+  Field<T> r_[Dim], v_[Dim], rho_, e_, h_, m_;
+  Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
+  Field<std::uint32_t> id_;
+  Field<std::uint8_t> set_;
+  Field<std::uint16_t> pairs_;
+  Field<T> records_;
+  Field<T> scratch_;
+};
+
+}  // namespace sphmbs::particles

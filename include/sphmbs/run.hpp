@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <sphmbs/core/expects.hpp>
+#include <sphmbs/sph/survey.hpp>
+#include <sphmbs/time/integrator.hpp>
+
+namespace sphmbs {
+
+/// How long to run and how long a step may be.
+struct Schedule {
+  double until;                // end time [s]
+  double cfl = 0.25;           // share of the stability limits, where `step` is not given [-]
+  std::optional<double> step;  // fixed step [s]
+
+  /// @throws InvalidInput for numbers that are not positive and finite, or a cfl above 1.
+  void check() const {
+    expects(std::isfinite(until) && until > 0, "until", until, "positive [s]");
+    expects(cfl > 0 && cfl <= 1, "cfl", cfl, "above 0 and at most 1");
+    if (step) expects(std::isfinite(*step) && *step > 0, "step", *step, "positive [s]");
+  }
+};
+
+/// Calls an action at time 0, at every multiple of an interval, and at the end.
+template <class Action>
+class Every {
+ public:
+  /// @throws InvalidInput unless the interval is positive.
+  Every(double interval, Action action) : interval_(interval), action_(std::move(action)) {
+    expects(interval > 0, "interval", interval, "positive [s]");
+  }
+
+  double due() const { return static_cast<double>(count_) * interval_; }
+
+  /// Acts if the time has come; `last` makes it act in any case, once.
+  template <class System>
+  void observe(System& system, bool last) {
+    const double t = system.time();
+    const bool now = t >= due() - 1e-9 * interval_;
+    if (now) count_ = static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1;
+    if (now || (last && t > acted_)) {
+      action_(system);
+      acted_ = t;
+    }
+  }
+
+ private:
+  double interval_;
+  Action action_;
+  long count_ = 0;
+  double acted_ = -1;
+};
+
+/// Steps a system until the end of its schedule. Observers see it at the beginning of a step, when
+/// state, rates and forces belong to the same time, and once more at the end. Steps that follow
+/// from stability limits are shortened to meet the times observers are due; fixed steps are not.
+/// @param report  called as report(system, StepLimit) before every step is taken
+/// @throws InvalidInput for a bad schedule; NumericalFailure from the system.
+template <class System, time::TimeIntegrator Integrator, class Report, class... Observers>
+void run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
+         Observers... observers) {
+  schedule.check();
+  const auto observe = [&](bool last) { (observers.observe(system, last), ...); };
+  const double close = 1e-12 * schedule.until;
+  while (system.time() < schedule.until - close) {
+    integrator.step(system, [&] {
+      observe(false);
+      const double left = schedule.until - system.time();
+      sph::StepLimit limit = schedule.step ? sph::StepLimit{*schedule.step, "fixed", 0}
+                                           : sph::step_limit(system.survey(), schedule.cfl);
+      double wait = left;
+      if (!schedule.step) ((wait = std::min(wait, observers.due() - system.time())), ...);
+      // Whole steps of equal length up to the next observation, instead of a short last one.
+      const double whole = wait / std::max(1.0, std::ceil(wait / limit.dt - 1e-9));
+      if (schedule.step) limit.dt = std::min(limit.dt, left);
+      else limit.dt = whole;
+      report(system, limit);
+      return limit.dt;
+    });
+  }
+  system.stage(0, 0);
+  system.rates(0);
+  observe(true);
+}
+
+}  // namespace sphmbs

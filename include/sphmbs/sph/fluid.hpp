@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <sphmbs/execution/default.hpp>
+#include <sphmbs/execution/reduce.hpp>
+#include <sphmbs/neighbours/cell_list.hpp>
+#include <sphmbs/sph/diagnosis.hpp>
+#include <sphmbs/sph/interpolate.hpp>
+#include <sphmbs/sph/list_schedule.hpp>
+#include <sphmbs/sph/rates.hpp>
+#include <sphmbs/sph/stages.hpp>
+#include <sphmbs/sph/statistics.hpp>
+#include <sphmbs/sph/survey.hpp>
+#include <sphmbs/sph/totals.hpp>
+#include <sphmbs/time/integrator.hpp>
+
+namespace sphmbs::sph {
+
+/// A compressible gas and the virtual particles around it: particles, their neighbours, and the
+/// equations that move them. A time::ExplicitSystem.
+/// @tparam Scheme  RiemannSph<...>: kernel, Riemann solver, equation of state, ...
+/// @tparam Policy  where loops run
+/// @tparam Motion  prescribed motion of the virtual particles
+/// @tparam T       floating-point type of the fields
+template <class Scheme, execution::ExecutionPolicy Policy = execution::Default,
+          class Motion = boundary::Fixed, class T = double>
+class Fluid {
+ public:
+  static constexpr int dim = Scheme::dim;
+  using Search = neighbours::CellList<dim, T, Policy>;
+
+  /// @throws InvalidInput for an empty cloud, parameters out of range, or a periodic axis shorter
+  ///         than two support radii.
+  Fluid(const Scheme& scheme, const geometry::Domain<dim>& domain,
+        const particles::Cloud<dim>& cloud, const Motion& motion = {}, Policy = {})
+      : scheme_(scheme),
+        domain_(domain),
+        motion_(motion),
+        space_(domain.template periodicity<T>()),
+        particles_(cloud, [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
+        gas_count_(cloud.gas_count()) {
+    scheme.check();
+    domain.check();
+    for (const double h : cloud.h) survey_.h_max = std::max(survey_.h_max, h);
+    neighbours::check_reach(domain, {Scheme::Kernel::support, 0, survey_.h_max});
+  }
+
+  /// Goes to the stage y + scale k at time() + dt.
+  void stage(double scale, double dt) {
+    lists_.staged(dt);
+    if (lists_.outdated(dt)) rebuild_lists(dt);
+    const auto timer = statistics_.time(Phase::update);
+    Policy::for_each(size(), WriteRecords<Scheme, T, Motion>{advance(scale, dt), scheme_,
+                                                             particles_.records()});
+  }
+
+  /// k = keep k + f(stage).
+  void rates(double keep) {
+    {
+      const auto timer = statistics_.time(Phase::rates);
+      Policy::for_each(size(), EvaluateRates<Scheme, T, Policy::template lanes<T>>{
+                                   .scheme = scheme_,
+                                   .space = space_,
+                                   .neighbours = search_.view(),
+                                   .records = particles_.records(),
+                                   .set = particles_.fields().set,
+                                   .rates = particles_.rates(),
+                                   .keep = static_cast<T>(keep),
+                                   .border = static_cast<T>(1.5 * lists_.reach().largest())});
+    }
+    const auto timer = statistics_.time(Phase::survey);
+    survey_ = execution::reduce<Policy>(
+        size(), Survey<dim>{},
+        SurveyParticle<Scheme, T>{scheme_, particles_.fields(), particles_.rates(),
+                                  particles_.records()});
+    statistics_.pair_interactions += survey_.pairs;
+    ++statistics_.evaluations;
+    wall_power_ = keep * wall_power_ + survey_.wall_power;
+    lists_.moving(survey_.approach() + Scheme::Kernel::support * survey_.h_rate);
+  }
+
+  /// y = y + scale k, and the time goes on by dt.
+  /// @throws NumericalFailure naming the particle, its place and its state where the new state is
+  ///         not finite, or density, smoothing length or squared sound speed is not positive.
+  void commit(double scale, double dt) {
+    const auto timer = statistics_.time(Phase::update);
+    const Culprit culprit = execution::reduce<Policy>(
+        size(), Culprit{},
+        CommitStep<Scheme, T, Motion>{advance(scale, dt), scheme_, space_});
+    time_ += dt;
+    wall_work_ -= scale * wall_power_;
+    ++statistics_.steps;
+    lists_.stepped(dt);
+    if (culprit.id != Culprit::none)
+      throw NumericalFailure(
+          describe_culprit<Policy>(particles_, culprit, time_, dt, statistics_.steps));
+  }
+
+  /// Time of the state y [s].
+  double time() const { return time_; }
+  std::size_t size() const { return particles_.size(); }
+  std::size_t gas_count() const { return gas_count_; }
+  std::size_t virtual_count() const { return size() - gas_count_; }
+  const Scheme& scheme() const { return scheme_; }
+  const geometry::Domain<dim>& domain() const { return domain_; }
+
+  /// What the last evaluation of the rates found.
+  const Survey<dim>& survey() const { return survey_; }
+  const Statistics& statistics() const { return statistics_; }
+
+  /// Work done on the gas so far by virtual particles that move, -int sum f.v dt with f the force of
+  /// the gas on them [J].
+  double wall_work() const { return wall_work_; }
+
+  /// Sums over the state y.
+  Totals<dim> totals() {
+    return execution::reduce<Policy>(size(), Totals<dim>{},
+                                     TotalsOfParticle<dim, T>{particles_.fields()});
+  }
+
+  /// Force of the gas on a set of virtual particles at the last evaluation of the rates [N].
+  Vec<dim> force_on(int set) {
+    return execution::reduce<Policy>(
+               size(), Force<dim>{},
+               ForceOnParticle<dim, T>{particles_.fields(), particles_.rates(),
+                                       static_cast<std::uint8_t>(set)})
+        .f;
+  }
+
+  /// The gas at a point, at the last stage.
+  Sample<dim> sample(const Vec<dim>& x) {
+    return execution::reduce<Policy>(
+               size(), WeightedSum<dim>{},
+               WeighAtPoint<typename Scheme::Kernel, T>{particles_.records(), space_,
+                                                        x.template to<T>()})
+        .sample();
+  }
+
+  /// The particles, for reading and for setting initial fields. Positions must not be changed after
+  /// the first stage.
+  particles::Particles<dim, T, Policy>& particles() { return particles_; }
+
+  /// Lists of neighbours as they stand.
+  neighbours::NeighbourView neighbours() const { return search_.view(); }
+
+  /// Memory held [bytes].
+  std::size_t bytes() { return particles_.bytes() + search_.bytes(); }
+
+ private:
+  Advance<dim, T, Motion> advance(double scale, double dt) {
+    return {particles_.fields(),     particles_.rates(),      motion_,
+            static_cast<T>(scale), static_cast<T>(time_), static_cast<T>(dt)};
+  }
+
+  void rebuild_lists(double dt) {
+    const auto timer = statistics_.time(Phase::neighbours);
+    ++statistics_.rebuilds;
+    search_.rebuild(particles_, domain_,
+                    lists_.plan(dim, Scheme::Kernel::support, survey_.h_max, dt));
+  }
+
+  Scheme scheme_;
+  geometry::Domain<dim> domain_;
+  Motion motion_;
+  geometry::Periodicity<dim, T> space_;
+  particles::Particles<dim, T, Policy> particles_;
+  std::size_t gas_count_;
+  Search search_;
+  ListSchedule lists_;
+  Survey<dim> survey_;
+  Statistics statistics_;
+  double time_ = 0;
+  double wall_power_ = 0;
+  double wall_work_ = 0;
+};
+
+}  // namespace sphmbs::sph

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <sphmbs/neighbours/neighbour_search.hpp>
+
+namespace sphmbs::sph {
+
+/// Decides when neighbour lists must be made anew and how wide a skin they get. It reckons with
+/// bounds only (the speed at which any two particles can close in), so no positions are kept.
+class ListSchedule {
+ public:
+  /// True where a stage at time + dt could miss a neighbour. At the beginning of a step the stages
+  /// ahead are reckoned with too, so that one step uses one set of lists.
+  bool outdated(double dt) const {
+    return !built_ || drift_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_) > reach_.skin;
+  }
+
+  /// Rates were evaluated: pairs close in, and reaches grow, by `speed` together at most [m/s].
+  void moving(double speed) { speed_ = speed; }
+
+  /// A step of length dt was taken [s].
+  void stepped(double dt) {
+    drift_ += speed_ * dt;
+    step_ = dt;
+    lookahead_ = stage_;
+    stage_ = 0;
+  }
+
+  /// The reach for lists made now, during a stage at time + dt. A wider skin lists more pairs that
+  /// are out of reach, a narrower one is used up sooner: for lists that cost `listing` evaluations
+  /// of the rates and d dimensions, sqrt(listing R / (2 d s)) steps of s metres are best.
+  neighbours::Reach plan(int dim, double support, double h_max, double dt) {
+    constexpr double listing = 1.2;
+    const double widest = 0.13 / dim;  // of the reach: bounds the memory that lists take
+    const double R = support * h_max;
+    const double s = speed_ * step_;
+    const double needed = 1.05 * speed_ * std::max(dt, lookahead_);
+    double more = 0;  // steps beyond this one
+    if (s > 0) {
+      const double best = std::round(std::sqrt(listing * R / (2 * dim * s))) - 1;
+      more = std::max(0.0, std::min(best, std::floor((widest * R - needed) / s)));
+    }
+    const double skin = needed + 1.05 * more * s;
+    reach_ = {.support = support, .skin = skin, .h_max = h_max};
+    drift_ = 0;
+    built_ = true;
+    return reach_;
+  }
+
+  /// A stage at time + dt is evaluated.
+  void staged(double dt) { stage_ = std::max(stage_, dt); }
+
+  const neighbours::Reach& reach() const { return reach_; }
+
+ private:
+  neighbours::Reach reach_{};
+  bool built_ = false;
+  double drift_ = 0;      // how far pairs may have closed in since the lists were made [m]
+  double speed_ = 0;      // [m/s]
+  double step_ = 0;       // last step [s]
+  double stage_ = 0;      // latest stage of this step [s]
+  double lookahead_ = 0;  // latest stage of the last step [s]
+};
+
+}  // namespace sphmbs::sph

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+#include <sphmbs/boundary/motion.hpp>
+#include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/particles/record.hpp>
+#include <sphmbs/sph/scheme.hpp>
+
+namespace sphmbs::sph {
+
+/// State of a particle: what eqs. (27)-(29) step.
+template <int Dim, class T>
+struct Stepped {
+  Vec<Dim, T> r;
+  Vec<Dim, T> v;
+  T rho;
+  T e;
+  T h;
+};
+
+/// y + scale k for gas; for virtual particles the prescribed motion to time + dt.
+template <int Dim, class T, class Motion>
+struct Advance {
+  particles::FieldsView<Dim, T> fields;
+  particles::RatesView<Dim, T> rates;
+  Motion motion;
+  T scale;  // [s]
+  T time;   // of the state y [s]
+  T dt;     // [s]
+
+  SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
+    Stepped<Dim, T> y{fields.position(i), fields.velocity(i), fields.rho[i], fields.e[i],
+                      fields.h[i]};
+    const bool moves = fields.set[i] == particles::gas;
+    if (scale != T(0)) {
+      y.rho += scale * rates.rho[i];
+      y.e += scale * rates.e[i];
+      y.h += scale * rates.h[i];
+      if (moves) {
+        for (int k = 0; k < Dim; ++k) {
+          y.r[k] += scale * rates.r[k][i];
+          y.v[k] += scale * rates.v[k][i];
+        }
+      }
+    }
+    if (!moves) {
+      y.r = motion.position(fields.set[i], y.r, time, time + dt);
+      y.v = motion.velocity(fields.set[i], y.r, time + dt);
+    }
+    return y;
+  }
+};
+
+/// Writes the records of a stage: predicted state, pressure and sound speed.
+template <class Scheme, class T, class Motion>
+struct WriteRecords {
+  static constexpr int dim = Scheme::dim;
+  Advance<dim, T, Motion> advance;
+  Scheme scheme;
+  T* records;
+
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    const Stepped<dim, T> y = advance(i);
+    const T p = scheme.eos.pressure(y.rho, y.e);
+    particles::store_record<dim, T>(
+        records, i,
+        {.r = y.r,
+         .v = y.v,
+         .rho = y.rho,
+         .p = p,
+         .c = scheme.eos.sound_speed(y.rho, p),
+         .h = y.h,
+         .m = advance.fields.m[i],
+         .shell = advance.fields.set[i] == particles::gas ? T(0) : T(1)});
+  }
+};
+
+/// The first particle, by id, whose new state is not finite or not physical.
+struct Culprit {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t id = none;
+  std::uint32_t index = none;  // its place in the fields
+
+  SPHMBS_INLINE void combine(const Culprit& other) {
+    if (other.id < id) *this = other;
+  }
+};
+
+/// Writes y(t + dt) over y(t), wraps positions into the periodic box, and checks the new state.
+template <class Scheme, class T, class Motion>
+struct CommitStep {
+  static constexpr int dim = Scheme::dim;
+  Advance<dim, T, Motion> advance;
+  Scheme scheme;
+  geometry::Periodicity<dim, T> space;
+
+  SPHMBS_INLINE Culprit operator()(std::size_t i) const {
+    const auto& fields = advance.fields;
+    const Stepped<dim, T> y = advance(i);
+    fields.set_position(i, space.wrap(y.r));
+    fields.set_velocity(i, y.v);
+    fields.rho[i] = y.rho;
+    fields.e[i] = y.e;
+    fields.h[i] = y.h;
+    const T c = scheme.eos.sound_speed(y.rho, scheme.eos.pressure(y.rho, y.e));
+    // Written so that a NaN, which compares false, is caught.
+    bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
+    for (int k = 0; k < dim; ++k) good = good && finite(y.r[k]) && finite(y.v[k]);
+    if (good) return {};
+    return {fields.id[i], static_cast<std::uint32_t>(i)};
+  }
+
+ private:
+  static SPHMBS_INLINE bool finite(T x) {
+    return math::abs(x) <= std::numeric_limits<T>::max();
+  }
+};
+
+}  // namespace sphmbs::sph

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+
+namespace sphmbs::sph {
+
+/// Parts of a step whose time is taken.
+enum class Phase : std::size_t { neighbours, rates, survey, update };
+inline constexpr std::array<std::string_view, 4> phase_names{"neighbours", "rates", "survey",
+                                                             "update"};
+
+/// What a run has done so far.
+struct Statistics {
+  std::uint64_t steps = 0;
+  std::uint64_t evaluations = 0;        // of the rates
+  std::uint64_t rebuilds = 0;           // of the neighbour lists
+  std::uint64_t pair_interactions = 0;  // ordered pairs inside the support, over all evaluations
+  std::array<double, phase_names.size()> seconds{};
+
+  /// Adds the time until the returned object dies to a phase.
+  auto time(Phase phase) {
+    using Clock = std::chrono::steady_clock;
+    struct Timer {
+      double& seconds;
+      Clock::time_point start;
+      Timer(double& s, Clock::time_point t) : seconds(s), start(t) {}
+      Timer(const Timer&) = delete;
+      ~Timer() { seconds += std::chrono::duration<double>(Clock::now() - start).count(); }
+    };
+    return Timer(seconds[static_cast<std::size_t>(phase)], Clock::now());
+  }
+};
+
+}  // namespace sphmbs::sph

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <sphmbs/particles/record.hpp>
+#include <sphmbs/sph/scheme.hpp>
+
+namespace sphmbs::sph {
+
+/// Smallest value of a limit on the step, and the particle that sets it.
+struct Limit {
+  double dt = std::numeric_limits<double>::infinity();  // [s]
+  std::uint32_t id = 0;
+
+  SPHMBS_INLINE void combine(const Limit& other) {
+    if (other.dt < dt || (other.dt == dt && other.id < id)) *this = other;
+  }
+};
+
+/// What is learnt from one evaluation of the rates.
+template <int Dim>
+struct Survey {
+  Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
+  Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
+  double h_max = 0;           // largest smoothing length [m]
+  double h_rate = 0;          // largest rate of change of h [m/s]
+  std::uint64_t pairs = 0;    // ordered pairs inside the support
+  double wall_power = 0;      // of the gas on virtual particles, sum f.v [W]
+  Limit courant;              // h / (c + h |div v|)
+  Limit acceleration;         // sqrt(h / |a|)
+  Limit diffusion;            // h^2 / (2 nu)
+
+  SPHMBS_INLINE void combine(const Survey& o) {
+    for (int k = 0; k < Dim; ++k) {
+      slowest[k] = math::min(slowest[k], o.slowest[k]);
+      fastest[k] = math::max(fastest[k], o.fastest[k]);
+    }
+    h_max = math::max(h_max, o.h_max);
+    h_rate = math::max(h_rate, o.h_rate);
+    pairs += o.pairs;
+    wall_power += o.wall_power;
+    courant.combine(o.courant);
+    acceleration.combine(o.acceleration);
+    diffusion.combine(o.diffusion);
+  }
+
+  /// No two particles approach each other faster than this [m/s].
+  double approach() const { return std::sqrt(norm2(fastest - slowest)); }
+};
+
+/// What a particle contributes to the survey.
+template <class Scheme, class T>
+struct SurveyParticle {
+  static constexpr int dim = Scheme::dim;
+  Scheme scheme;
+  particles::FieldsView<dim, T> fields;
+  particles::RatesView<dim, T> rates;
+  const T* records;
+
+  SPHMBS_INLINE Survey<dim> operator()(std::size_t i) const {
+    const particles::Record<dim, T> s = particles::load_record<dim>(records, i);
+    const std::uint32_t id = fields.id[i];
+    const double h = static_cast<double>(s.h);
+    const double rho = static_cast<double>(s.rho);
+    Survey<dim> found;
+    Vec<dim> r, v;
+    for (int k = 0; k < dim; ++k) {
+      r[k] = static_cast<double>(rates.r[k][i]);
+      v[k] = static_cast<double>(rates.v[k][i]);
+    }
+    found.slowest = found.fastest = r;
+    found.h_max = h;
+    found.h_rate = math::abs(static_cast<double>(rates.h[i]));
+    found.pairs = rates.pairs[i];
+    const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;
+    found.courant = {h / (static_cast<double>(s.c) + h * divergence), id};
+    if (fields.set[i] == particles::gas) {
+      found.acceleration = {math::sqrt(h / (math::sqrt(norm2(v)) + 1e-300)), id};
+      if constexpr (decltype(scheme.stress)::acts)
+        found.diffusion = {h * h / (2 * scheme.stress.diffusivity(rho)), id};
+    } else {
+      found.wall_power = static_cast<double>(s.m) * dot(v, r);
+    }
+    return found;
+  }
+};
+
+/// The length of the next step and why it is no longer.
+struct StepLimit {
+  double dt;                // [s]
+  std::string_view reason;  // "sound", "acceleration", "diffusion", "fixed" or "output"
+  std::uint32_t id;         // of the particle that limits; 0 where none does
+};
+
+/// cfl times the smallest of the limits.
+template <int Dim>
+StepLimit step_limit(const Survey<Dim>& survey, double cfl) {
+  StepLimit limit{cfl * survey.courant.dt, "sound", survey.courant.id};
+  if (cfl * survey.acceleration.dt < limit.dt)
+    limit = {cfl * survey.acceleration.dt, "acceleration", survey.acceleration.id};
+  if (cfl * survey.diffusion.dt < limit.dt)
+    limit = {cfl * survey.diffusion.dt, "diffusion", survey.diffusion.id};
+  return limit;
+}
+
+}  // namespace sphmbs::sph

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sphmbs/core/math.hpp>
+#include <sphmbs/particles/fields.hpp>
+
+namespace sphmbs::sph {
+
+/// Sums over all particles; planar gas per metre of depth.
+template <int Dim>
+struct Totals {
+  double mass = 0;              // of the gas [kg]
+  Vec<Dim> momentum = {};       // of the gas [kg m/s]
+  double kinetic = 0;           // energy of the gas [J]
+  double internal = 0;          // energy of the gas [J]
+  double virtual_internal = 0;  // energy of the virtual particles [J]
+
+  /// Kinetic and internal energy of the gas [J].
+  double energy() const { return kinetic + internal; }
+
+  SPHMBS_INLINE void combine(const Totals& o) {
+    mass += o.mass;
+    momentum += o.momentum;
+    kinetic += o.kinetic;
+    internal += o.internal;
+    virtual_internal += o.virtual_internal;
+  }
+};
+
+template <int Dim, class T>
+struct TotalsOfParticle {
+  particles::FieldsView<Dim, T> fields;
+
+  SPHMBS_INLINE Totals<Dim> operator()(std::size_t i) const {
+    const double m = static_cast<double>(fields.m[i]);
+    const double e = static_cast<double>(fields.e[i]);
+    if (fields.set[i] != particles::gas) return {.virtual_internal = m * e};
+    const Vec<Dim> v = fields.velocity(i).template to<double>();
+    return {.mass = m, .momentum = m * v, .kinetic = 0.5 * m * norm2(v), .internal = m * e};
+  }
+};
+
+/// Force of the gas on one set of virtual particles: m times the acceleration that eq. (21) gives
+/// them from gas neighbours alone. For planar gas per metre of depth.
+template <int Dim>
+struct Force {
+  Vec<Dim> f = {};  // [N]
+  SPHMBS_INLINE void combine(const Force& o) { f += o.f; }
+};
+
+template <int Dim, class T>
+struct ForceOnParticle {
+  particles::FieldsView<Dim, T> fields;
+  particles::RatesView<Dim, T> rates;
+  std::uint8_t set;
+
+  SPHMBS_INLINE Force<Dim> operator()(std::size_t i) const {
+    Force<Dim> force;
+    if (fields.set[i] == set)
+      for (int k = 0; k < Dim; ++k)
+        force.f[k] = static_cast<double>(fields.m[i]) * static_cast<double>(rates.v[k][i]);
+    return force;
+  }
+};
+
+}  // namespace sphmbs::sph
