@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,7 +17,7 @@ namespace sphmbs {
 struct Schedule {
   double until;                // end time [s]
   double cfl = 0.25;           // share of the stability limits, where `step` is not given [-]
-  std::optional<double> step;  // fixed step [s]
+  std::optional<double> step = {};  // fixed step [s]
 
   /// @throws InvalidInput for numbers that are not positive and finite, or a cfl above 1.
   void check() const {
@@ -26,16 +27,24 @@ struct Schedule {
   }
 };
 
-/// Calls an action at time 0, at every multiple of an interval, and at the end.
+/// Whether steps are shortened so that an observer sees exactly the times it asks for.
+enum class Timing { exact, next_step };
+
+/// Calls an action at time 0, at every multiple of an interval (or at the first step after it), and
+/// at the end.
 template <class Action>
 class Every {
  public:
   /// @throws InvalidInput unless the interval is positive.
-  Every(double interval, Action action) : interval_(interval), action_(std::move(action)) {
+  Every(double interval, Action action, Timing timing = Timing::exact)
+      : interval_(interval), action_(std::move(action)), timing_(timing) {
     expects(interval > 0, "interval", interval, "positive [s]");
   }
 
-  double due() const { return static_cast<double>(count_) * interval_; }
+  /// The next time that a step may not pass [s].
+  double barrier() const {
+    return timing_ == Timing::exact ? due() : std::numeric_limits<double>::infinity();
+  }
 
   /// Acts if the time has come; `last` makes it act in any case, once.
   template <class System>
@@ -50,22 +59,25 @@ class Every {
   }
 
  private:
+  double due() const { return static_cast<double>(count_) * interval_; }
+
   double interval_;
   Action action_;
+  Timing timing_;
   long count_ = 0;
   double acted_ = -1;
 };
 
 /// Steps a system until the end of its schedule. Observers see it at the beginning of a step, when
 /// state, rates and forces belong to the same time, and once more at the end. Steps that follow
-/// from stability limits are shortened to meet the times observers are due; fixed steps are not.
+/// from stability limits are shortened to meet exact observers; fixed steps are not.
 /// @param report  called as report(system, StepLimit) before every step is taken
 /// @throws InvalidInput for a bad schedule; NumericalFailure from the system.
 template <class System, time::TimeIntegrator Integrator, class Report, class... Observers>
 void run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
          Observers... observers) {
   schedule.check();
-  const auto observe = [&](bool last) { (observers.observe(system, last), ...); };
+  const auto observe = [&]([[maybe_unused]] bool last) { (observers.observe(system, last), ...); };
   const double close = 1e-12 * schedule.until;
   while (system.time() < schedule.until - close) {
     integrator.step(system, [&] {
@@ -74,7 +86,7 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
       sph::StepLimit limit = schedule.step ? sph::StepLimit{*schedule.step, "fixed", 0}
                                            : sph::step_limit(system.survey(), schedule.cfl);
       double wait = left;
-      if (!schedule.step) ((wait = std::min(wait, observers.due() - system.time())), ...);
+      if (!schedule.step) ((wait = std::min(wait, observers.barrier() - system.time())), ...);
       // Whole steps of equal length up to the next observation, instead of a short last one.
       const double whole = wait / std::max(1.0, std::ceil(wait / limit.dt - 1e-9));
       if (schedule.step) limit.dt = std::min(limit.dt, left);

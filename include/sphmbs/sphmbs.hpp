@@ -29,6 +29,7 @@
 #include <sphmbs/particles/cloud.hpp>
 #include <sphmbs/particles/particles.hpp>
 #include <sphmbs/riemann/acoustic.hpp>
+#include <sphmbs/riemann/exact_solution.hpp>
 #include <sphmbs/run.hpp>
 #include <sphmbs/sph/fluid.hpp>
 #include <sphmbs/sph/scheme.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <sphmbs/core/inline.hpp>
 #include <sphmbs/execution/field.hpp>
@@ -40,8 +40,9 @@ Result reduce(std::size_t n, const Result& identity, const Map& map) {
   const std::size_t blocks = (n + reduction_block - 1) / reduction_block;
   Field<Result, Policy> partial(blocks);
   Policy::for_each(blocks, detail::FoldBlock<Result, Map>{map, identity, partial.data(), n});
+  const std::vector<Result> in_order = partial.download();
   Result r = identity;
-  for (const Result& p : partial.download()) r.combine(p);
+  for (std::size_t b = 0; b < blocks; ++b) r.combine(in_order[b]);
   return r;
 }
 

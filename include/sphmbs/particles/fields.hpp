@@ -41,8 +41,9 @@ struct FieldsView {
 };
 
 /// Rates of change, the left-hand sides of eq. (26), or a weighted sum of them over the stages of a
-/// step. For virtual particles, whose motion is prescribed, `v` is the force of the gas on the
-/// particle by its mass, and `r` its velocity, both at the last stage alone.
+/// step. Virtual particles, whose motion is prescribed, have at the last stage alone: in `v` the
+/// force of the gas on the particle by its mass, and in `r[0]` the power of other virtual particles
+/// on it by its mass [W/kg].
 template <int Dim, class T>
 struct RatesView {
   T* r[Dim];             // [m/s], eq. (14)

@@ -7,6 +7,7 @@
 #include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/neighbours/cell_list.hpp>
 #include <sphmbs/sph/diagnosis.hpp>
+#include <sphmbs/sph/exchange.hpp>
 #include <sphmbs/sph/interpolate.hpp>
 #include <sphmbs/sph/list_schedule.hpp>
 #include <sphmbs/sph/rates.hpp>
@@ -29,6 +30,8 @@ template <class Scheme, execution::ExecutionPolicy Policy = execution::Default,
 class Fluid {
  public:
   static constexpr int dim = Scheme::dim;
+  using SchemeType = Scheme;
+  using PolicyType = Policy;
   using Search = neighbours::CellList<dim, T, Policy>;
 
   /// @throws InvalidInput for an empty cloud, parameters out of range, or a periodic axis shorter
@@ -43,6 +46,8 @@ class Fluid {
         gas_count_(cloud.gas_count()) {
     scheme.check();
     domain.check();
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      gas_mass_ += cloud.set[i] == particles::gas ? cloud.m[i] : 0;
     for (const double h : cloud.h) survey_.h_max = std::max(survey_.h_max, h);
     neighbours::check_reach(domain, {Scheme::Kernel::support, 0, survey_.h_max});
   }
@@ -77,7 +82,7 @@ class Fluid {
                                   particles_.records()});
     statistics_.pair_interactions += survey_.pairs;
     ++statistics_.evaluations;
-    wall_power_ = keep * wall_power_ + survey_.wall_power;
+    exchange_.evaluated(survey_, gas_mass_, scheme_.acceleration, keep);
     lists_.moving(survey_.approach() + Scheme::Kernel::support * survey_.h_rate);
   }
 
@@ -90,7 +95,7 @@ class Fluid {
         size(), Culprit{},
         CommitStep<Scheme, T, Motion>{advance(scale, dt), scheme_, space_});
     time_ += dt;
-    wall_work_ -= scale * wall_power_;
+    exchange_.committed(scale);
     ++statistics_.steps;
     lists_.stepped(dt);
     if (culprit.id != Culprit::none)
@@ -110,9 +115,8 @@ class Fluid {
   const Survey<dim>& survey() const { return survey_; }
   const Statistics& statistics() const { return statistics_; }
 
-  /// Work done on the gas so far by virtual particles that move, -int sum f.v dt with f the force of
-  /// the gas on them [J].
-  double wall_work() const { return wall_work_; }
+  /// What the gas has received from walls, bodies and the body force.
+  const Exchange<dim>& exchange() const { return exchange_; }
 
   /// Sums over the state y.
   Totals<dim> totals() {
@@ -172,8 +176,8 @@ class Fluid {
   Survey<dim> survey_;
   Statistics statistics_;
   double time_ = 0;
-  double wall_power_ = 0;
-  double wall_work_ = 0;
+  double gas_mass_ = 0;
+  Exchange<dim> exchange_;
 };
 
 }  // namespace sphmbs::sph

@@ -14,6 +14,7 @@ struct PairSums {
   N e = N(0);                               // eq. (22) and heat
   Vec<Dim, N> v = Vec<Dim, N>::all(N(0));   // eq. (21) and viscous stress
   Vec<Dim, N> r = Vec<Dim, N>::all(N(0));   // the sum of eq. (14), without its sign
+  N power = N(0);                           // of virtual particles on virtual particle a, by m_a
   N pairs = N(0);                           // neighbours inside the support
 };
 
@@ -60,6 +61,7 @@ struct PairTerm {
     sum.rho += mdW * du;
     sum.e += push * du;
     sum.v += (push * inverse_r * load) * d;
+    sum.power += push * (N(T(1)) - load) * left.u;
     if constexpr (decltype(scheme.xsph)::acts)
       sum.r += (scale * Kernel::shape(R) / (N(a.rho) + b.rho)) * (b.v - a.v);
     if constexpr (decltype(scheme.stress)::acts) {

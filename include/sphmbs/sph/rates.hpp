@@ -34,12 +34,15 @@ struct EvaluateRates {
     write(rates.rho, i, rho, keep);
     write(rates.e, i, evolves ? sum.e : T(0), keep);
     write(rates.h, i, -a.h / (T(dim) * a.rho) * rho, keep);  // eq. (23)
-    const T weight = moves ? keep : T(0);
-    const T drift = moves ? static_cast<T>(2 * scheme.xsph.zeta) : T(0);
+    const T smoothing = static_cast<T>(2 * scheme.xsph.zeta);
     for (int k = 0; k < dim; ++k) {
-      const T g = moves ? static_cast<T>(scheme.acceleration[k]) : T(0);
-      write(rates.v[k], i, sum.v[k] + g, weight);
-      write(rates.r[k], i, a.v[k] + drift * sum.r[k], weight);  // eq. (14)
+      if (moves) {
+        write(rates.v[k], i, sum.v[k] + static_cast<T>(scheme.acceleration[k]), keep);
+        write(rates.r[k], i, a.v[k] + smoothing * sum.r[k], keep);  // eq. (14)
+      } else {
+        rates.v[k][i] = sum.v[k];
+        rates.r[k][i] = k == 0 ? sum.power : T(0);
+      }
     }
     rates.pairs[i] = static_cast<std::uint16_t>(sum.pairs < T(65535) ? sum.pairs : T(65535));
   }
@@ -70,6 +73,7 @@ struct EvaluateRates {
       total.v[k] = lane_sum(sum.v[k]);
       total.r[k] = lane_sum(sum.r[k]);
     }
+    total.power = lane_sum(sum.power);
     total.pairs = lane_sum(sum.pairs) - idle;
     return total;
   }

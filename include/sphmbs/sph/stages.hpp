@@ -5,6 +5,7 @@
 
 #include <sphmbs/boundary/motion.hpp>
 #include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/record.hpp>
 #include <sphmbs/sph/scheme.hpp>
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/record.hpp>
 #include <sphmbs/sph/scheme.hpp>
 
@@ -28,7 +29,10 @@ struct Survey {
   double h_max = 0;           // largest smoothing length [m]
   double h_rate = 0;          // largest rate of change of h [m/s]
   std::uint64_t pairs = 0;    // ordered pairs inside the support
+  Vec<Dim> wall_force = {};   // of the gas on all virtual particles [N]
   double wall_power = 0;      // of the gas on virtual particles, sum f.v [W]
+  double layer_power = 0;     // of virtual particles on each other [W]
+  Vec<Dim> momentum = {};     // of the gas at this stage [kg m/s]
   Limit courant;              // h / (c + h |div v|)
   Limit acceleration;         // sqrt(h / |a|)
   Limit diffusion;            // h^2 / (2 nu)
@@ -41,7 +45,10 @@ struct Survey {
     h_max = math::max(h_max, o.h_max);
     h_rate = math::max(h_rate, o.h_rate);
     pairs += o.pairs;
+    wall_force += o.wall_force;
     wall_power += o.wall_power;
+    layer_power += o.layer_power;
+    momentum += o.momentum;
     courant.combine(o.courant);
     acceleration.combine(o.acceleration);
     diffusion.combine(o.diffusion);
@@ -65,26 +72,33 @@ struct SurveyParticle {
     const std::uint32_t id = fields.id[i];
     const double h = static_cast<double>(s.h);
     const double rho = static_cast<double>(s.rho);
+    const bool moves = fields.set[i] == particles::gas;
+    const Vec<dim> drift = moves ? in_double(rates.r, i) : s.v.template to<double>();
+    const Vec<dim> v = in_double(rates.v, i);
     Survey<dim> found;
-    Vec<dim> r, v;
-    for (int k = 0; k < dim; ++k) {
-      r[k] = static_cast<double>(rates.r[k][i]);
-      v[k] = static_cast<double>(rates.v[k][i]);
-    }
-    found.slowest = found.fastest = r;
+    found.slowest = found.fastest = drift;
     found.h_max = h;
     found.h_rate = math::abs(static_cast<double>(rates.h[i]));
     found.pairs = rates.pairs[i];
     const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;
     found.courant = {h / (static_cast<double>(s.c) + h * divergence), id};
-    if (fields.set[i] == particles::gas) {
+    const double m = static_cast<double>(s.m);
+    if (moves) {
+      found.momentum = m * s.v.template to<double>();
       found.acceleration = {math::sqrt(h / (math::sqrt(norm2(v)) + 1e-300)), id};
       if constexpr (decltype(scheme.stress)::acts)
         found.diffusion = {h * h / (2 * scheme.stress.diffusivity(rho)), id};
     } else {
-      found.wall_power = static_cast<double>(s.m) * dot(v, r);
+      found.wall_force = m * v;
+      found.wall_power = m * dot(v, drift);
+      found.layer_power = m * static_cast<double>(rates.r[0][i]);
     }
     return found;
+  }
+
+ private:
+  static SPHMBS_INLINE Vec<dim> in_double(T* const (&field)[dim], std::size_t i) {
+    return particles::FieldsView<dim, T>::at(field, i).template to<double>();
   }
 };
 

@@ -10,6 +10,7 @@ namespace sphmbs::sph {
 template <int Dim>
 struct Totals {
   double mass = 0;              // of the gas [kg]
+  double volume = 0;            // of the gas, sum m / rho [m^3]
   Vec<Dim> momentum = {};       // of the gas [kg m/s]
   double kinetic = 0;           // energy of the gas [J]
   double internal = 0;          // energy of the gas [J]
@@ -20,6 +21,7 @@ struct Totals {
 
   SPHMBS_INLINE void combine(const Totals& o) {
     mass += o.mass;
+    volume += o.volume;
     momentum += o.momentum;
     kinetic += o.kinetic;
     internal += o.internal;
@@ -36,7 +38,11 @@ struct TotalsOfParticle {
     const double e = static_cast<double>(fields.e[i]);
     if (fields.set[i] != particles::gas) return {.virtual_internal = m * e};
     const Vec<Dim> v = fields.velocity(i).template to<double>();
-    return {.mass = m, .momentum = m * v, .kinetic = 0.5 * m * norm2(v), .internal = m * e};
+    return {.mass = m,
+            .volume = m / static_cast<double>(fields.rho[i]),
+            .momentum = m * v,
+            .kinetic = 0.5 * m * norm2(v),
+            .internal = m * e};
   }
 };
 

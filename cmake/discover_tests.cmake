@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+# Run after a test program is built: writes CTEST_FILE, with one CTest test for each test case.
+cmake_minimum_required(VERSION 3.22)
+
+set(timeout_quick 300)
+set(timeout_slow 3600)
+set(timeout_long 14400)
+
+function(list_cases spec result)
+  execute_process(COMMAND "${PROGRAM}" "${spec}" ${LIST_OPTIONS}
+    OUTPUT_VARIABLE output ERROR_VARIABLE errors RESULT_VARIABLE code)
+  # Catch2 2 returns the number of cases, so only a signal or a missing program is a failure.
+  if(NOT code MATCHES "^[0-9]+$")
+    message(FATAL_ERROR "${NAME} cannot list its tests: ${code}\n${output}${errors}")
+  endif()
+  string(REPLACE ";" "\\;" output "${output}")
+  string(REGEX REPLACE "\n$" "" output "${output}")
+  string(REPLACE "\n" ";" output "${output}")
+  set(${result} "${output}" PARENT_SCOPE)
+endfunction()
+
+set(script "")
+function(append_cases spec speed)
+  list_cases("${spec}" cases)
+  foreach(case IN LISTS cases)
+    string(REPLACE "\\" "\\\\" pattern "${case}")
+    string(REPLACE "," "\\," pattern "${pattern}")
+    string(REPLACE "[" "\\[" pattern "${pattern}")
+    string(APPEND script
+      "add_test([==[${NAME}: ${case}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
+      "set_tests_properties([==[${NAME}: ${case}]==] PROPERTIES LABELS \"${KIND};${speed}\" "
+      "TIMEOUT ${timeout_${speed}})\n")
+  endforeach()
+  set(script "${script}" PARENT_SCOPE)
+endfunction()
+
+append_cases("~[.]~[slow]~[long]" quick)
+append_cases("~[.][slow]~[long]" slow)
+append_cases("~[.][long]" long)
+file(WRITE "${CTEST_FILE}" "${script}")

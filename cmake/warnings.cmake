@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: MIT
+# Warnings of the programs and tests of this repository; users of the library never see them.
+function(sphmbs_warnings target)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+      $<$<BOOL:${SPHMBS_WERROR}>:-Werror>)
+    # GCC 12 warns of overlapping memory in any "text" + std::string, wrongly (its bug 105651).
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+      target_compile_options(${target} PRIVATE -Wno-restrict)
+    endif()
+  endif()
+endfunction()

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace sphmbs::examples {
+
+/// How the program was compiled, in one line: compiler, the macros of the flags that matter for
+/// speed and results, and the version of Eigen.
+std::string build_info();
+
+}  // namespace sphmbs::examples

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "support/guarded_main.hpp"
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "sphmbs/core/error.hpp"
+#include "support/text.hpp"
+
+namespace sphmbs::examples {
+
+int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
+                 const std::function<void(const Settings&)>& run, std::ostream& out,
+                 std::ostream& err) {
+  const auto end_with = [&](ExitCode code, std::string_view message) {
+    out.flush();
+    err << "error: " << message << std::endl;
+    return static_cast<int>(code);
+  };
+  try {
+    if (const auto settings = command_line.parse(argc, argv, out)) run(*settings);
+    out.flush();
+    return static_cast<int>(ExitCode::done);
+  } catch (const InvalidInput& error) {
+    return end_with(ExitCode::bad_input, one_line(error.what()));
+  } catch (const NumericalFailure& error) {
+    return end_with(ExitCode::numerical_failure, error.what());
+  } catch (const OutputError& error) {
+    return end_with(ExitCode::output_failed, error.what());
+  } catch (const std::bad_alloc&) {
+    return end_with(ExitCode::out_of_memory,
+                    "out of memory; a larger --spacing means fewer particles");
+  } catch (const std::exception& error) {
+    return end_with(ExitCode::internal_error, error.what());
+  } catch (...) {
+    return end_with(ExitCode::internal_error, "unknown exception");
+  }
+}
+
+int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
+                 const std::function<void(const Settings&)>& run) {
+  return guarded_main(argc, argv, command_line, run, std::cout, std::cerr);
+}
+
+}  // namespace sphmbs::examples

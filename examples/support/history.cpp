@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "support/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sphmbs::examples {
+
+void History::add(const std::string& name, const std::string& unit) {
+  columns_.push_back({name, unit});
+  values_.emplace_back();
+}
+
+void History::begin(const std::filesystem::path& path, const std::string& comment) {
+  std::vector<CsvWriter::Column> columns{{"t", "s"}};
+  columns.insert(columns.end(), columns_.begin(), columns_.end());
+  file_ = std::make_unique<CsvWriter>(path, comment, columns);
+  file_->flush();
+}
+
+void History::row(double time, const std::vector<double>& values) {
+  if (values.size() != values_.size())
+    throw std::invalid_argument("History::row: " + std::to_string(values.size()) +
+                                " values for " + std::to_string(values_.size()) + " quantities");
+  time_.push_back(time);
+  std::vector<double> line{time};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values_[k].push_back(values[k]);
+    line.push_back(values[k]);
+  }
+  if (file_) {
+    file_->row(line);
+    file_->flush();
+  }
+}
+
+bool History::has(const std::string& name) const {
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [&](const auto& column) { return column.name == name; });
+}
+
+const std::vector<double>& History::of(const std::string& name) const {
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    if (columns_[k].name == name) return values_[k];
+  throw std::out_of_range("History::of: no quantity " + name);
+}
+
+double History::at(const std::string& name, double time) const {
+  const std::vector<double>& y = of(name);
+  const double slack = 1e-9 * std::max(1.0, std::abs(time));
+  if (time_.empty() || time < time_.front() - slack || time > time_.back() + slack)
+    return std::numeric_limits<double>::quiet_NaN();
+  const auto after = std::lower_bound(time_.begin(), time_.end(), time - slack);
+  const auto i = static_cast<std::size_t>(after - time_.begin());
+  if (i == 0 || std::abs(time_[i] - time) <= slack) return y[i];
+  const double s = (time - time_[i - 1]) / (time_[i] - time_[i - 1]);
+  return (1 - s) * y[i - 1] + s * y[i];
+}
+
+Curve History::curve(const std::string& name, const std::string& label) const {
+  Curve curve;
+  curve.label = label;
+  curve.x = time_;
+  curve.y = of(name);
+  return curve;
+}
+
+double rms_difference(const History& history, const std::string& name,
+                      const std::vector<double>& time, const std::vector<double>& reference,
+                      double from, double to) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double value = history.at(name, time[i]);
+    if (time[i] < from - 1e-9 || time[i] > to + 1e-9 || std::isnan(value)) continue;
+    sum += (value - reference[i]) * (value - reference[i]);
+    ++n;
+  }
+  return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace sphmbs::examples

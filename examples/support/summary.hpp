@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sphmbs/version.hpp"
+
+namespace sphmbs::examples {
+
+/// Time spent in one part of the program.
+struct Phase {
+  std::string name{};
+  /// Wall-clock time [s].
+  double seconds = 0.0;
+};
+
+/// Relative change of the conserved quantities over the run, [-]; NaN where it has no meaning.
+struct Conservation {
+  double mass = 0.0;
+  double momentum = 0.0;
+  double energy = 0.0;
+};
+
+/// A number that the run was made for.
+struct Result {
+  std::string name{};
+  double value = 0.0;
+  /// Published, exact or measured value in the same unit, if there is one.
+  std::optional<double> reference{};
+  /// SI unit, "-" for none.
+  std::string unit = "-";
+};
+
+/// Number of particles at the end of the run.
+struct ParticleCounts {
+  std::int64_t gas = 0;
+  /// Particles that represent walls and bodies.
+  std::int64_t virtual_particles = 0;
+};
+
+/// What a run did, for people (Report::finish) and for programs (write_summary).
+struct Summary {
+  std::string case_name{};
+  std::string version{sphmbs::version};
+  std::string backend{};
+  int threads = 1;
+  ParticleCounts particles{};
+  std::int64_t steps = 0;
+  /// Physical time reached [s].
+  double time_end = 0.0;
+  /// Duration of the run [s].
+  double wall_seconds = 0.0;
+  std::vector<Phase> phases{};
+  /// Number of pairs of neighbours evaluated, over all steps.
+  std::int64_t pair_interactions = 0;
+  /// Largest amount of memory in use at a time [bytes]; see peak_memory().
+  std::uint64_t peak_memory_bytes = 0;
+  Conservation conservation{};
+  std::vector<Result> results{};
+};
+
+/// Pairs of neighbours evaluated per second of wall-clock time; 0 for a run of no duration.
+double pair_interactions_per_second(const Summary& summary);
+
+/// Largest amount of memory this process has used so far [bytes].
+std::uint64_t peak_memory();
+
+/// Writes the summary as JSON (UTF-8, keys in fixed order; a number that is not finite becomes
+/// null). The file appears complete or not at all. Throws OutputError with path and reason; an
+/// earlier file is then untouched.
+void write_summary(const std::filesystem::path& path, const Summary& summary);
+
+}  // namespace sphmbs::examples
