@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -61,6 +62,8 @@ class Session {
   template <class Integrator>
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
+    fluid_.stage(0, 0);
+    fluid_.rates(0);
     banner(is_new);
     history_.begin(file("history.csv"), name_ + ", sphmbs " + std::string(version));
     const double interval = settings_.until / samples;
@@ -113,22 +116,33 @@ class Session {
                      format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
                          format_count(static_cast<std::int64_t>(fluid_.virtual_count())) +
                          " virtual",
-                     "memory about " + format_bytes(expected_bytes())});
-    lines.push_back({"run", "until " + format_exact(settings_.until) + " s, " +
-                                (settings_.step ? "step " + format_exact(*settings_.step) + " s"
-                                                : "cfl " + format_exact(settings_.cfl)),
+                     "memory " + format_bytes(fluid_.bytes()) + ", " +
+                         std::to_string(fluid_.bytes() / fluid_.size()) + " B/particle"});
+    lines.push_back({"run", "until " + format_exact(settings_.until) + " s",
                      settings_.backend + ", " + std::to_string(settings_.threads) +
                          (settings_.threads == 1 ? " thread" : " threads")});
+    const sph::StepLimit limit = sph::step_limit(fluid_.survey(), settings_.cfl);
+    const std::string fixed =
+        settings_.step ? "fixed at " + format_exact(*settings_.step) + " s; " : "";
+    lines.push_back({"step", fixed + limit_text(limit), ""});
     report_.banner(title_, lines);
+    if (settings_.step && *settings_.step > 2 * limit.dt)
+      report_.warn("long step", "the fixed step is more than twice what the stability limits allow");
   }
 
-  // Fields and lists; a particle's list is reckoned by the volume of its support.
-  std::uint64_t expected_bytes() {
-    constexpr double ball[] = {2, math::pi, 4 * math::pi / 3};
-    const double reach = 1.25 * Fluid::SchemeType::Kernel::support;
-    const double listed = 1.15 * 4 * ball[dim - 1] * std::pow(reach, dim);
-    return static_cast<std::uint64_t>(static_cast<double>(fluid_.bytes()) +
-                                      listed * static_cast<double>(fluid_.size()));
+  // What the stability limits allow at the start, and where the particle is that sets it.
+  std::string limit_text(const sph::StepLimit& limit) {
+    using Policy = typename Fluid::PolicyType;
+    const auto fields = fluid_.particles().fields();
+    const auto id = download<Policy>(fields.id, fluid_.size());
+    const auto at = static_cast<std::size_t>(std::find(id.begin(), id.end(), limit.id) - id.begin());
+    std::string text = "at most " + format_number(limit.dt, 3) + " s at cfl " +
+                       format_exact(settings_.cfl) + " (" + std::string(limit.reason) + " at (";
+    for (int k = 0; k < dim; ++k) {
+      const auto x = download<Policy>(fields.r[k] + at, 1);
+      text += (k > 0 ? ", " : "") + format_number(static_cast<double>(x[0]));
+    }
+    return text + ") m)";
   }
 
   void progress(const sph::StepLimit& limit) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
+#include <algorithm>
 
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
@@ -48,8 +48,8 @@ class Fluid {
     domain.check();
     for (std::size_t i = 0; i < cloud.size(); ++i)
       gas_mass_ += cloud.set[i] == particles::gas ? cloud.m[i] : 0;
-    for (const double h : cloud.h) survey_.h_max = std::max(survey_.h_max, h);
-    neighbours::check_reach(domain, {Scheme::Kernel::support, 0, survey_.h_max});
+    const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
+    neighbours::check_reach(domain, {Scheme::Kernel::support, 0, h_max});
   }
 
   /// Goes to the stage y + scale k at time() + dt.
@@ -161,8 +161,10 @@ class Fluid {
   void rebuild_lists(double dt) {
     const auto timer = statistics_.time(Phase::neighbours);
     ++statistics_.rebuilds;
+    const double h_max =
+        execution::reduce<Policy>(size(), Largest{}, SmoothingLength<T>{particles_.fields().h}).h;
     search_.rebuild(particles_, domain_,
-                    lists_.plan(dim, Scheme::Kernel::support, survey_.h_max, dt));
+                    lists_.plan(dim, Scheme::Kernel::support, h_max, dt));
   }
 
   Scheme scheme_;

@@ -26,7 +26,6 @@ template <int Dim>
 struct Survey {
   Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
-  double h_max = 0;           // largest smoothing length [m]
   double h_rate = 0;          // largest rate of change of h [m/s]
   std::uint64_t pairs = 0;    // ordered pairs inside the support
   Vec<Dim> wall_force = {};   // of the gas on all virtual particles [N]
@@ -42,7 +41,6 @@ struct Survey {
       slowest[k] = math::min(slowest[k], o.slowest[k]);
       fastest[k] = math::max(fastest[k], o.fastest[k]);
     }
-    h_max = math::max(h_max, o.h_max);
     h_rate = math::max(h_rate, o.h_rate);
     pairs += o.pairs;
     wall_force += o.wall_force;
@@ -77,7 +75,6 @@ struct SurveyParticle {
     const Vec<dim> v = in_double(rates.v, i);
     Survey<dim> found;
     found.slowest = found.fastest = drift;
-    found.h_max = h;
     found.h_rate = math::abs(static_cast<double>(rates.h[i]));
     found.pairs = rates.pairs[i];
     const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;

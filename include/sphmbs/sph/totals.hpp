@@ -46,6 +46,18 @@ struct TotalsOfParticle {
   }
 };
 
+/// The largest smoothing length [m].
+struct Largest {
+  double h = 0;
+  SPHMBS_INLINE void combine(const Largest& o) { h = math::max(h, o.h); }
+};
+
+template <class T>
+struct SmoothingLength {
+  const T* h;
+  SPHMBS_INLINE Largest operator()(std::size_t i) const { return {static_cast<double>(h[i])}; }
+};
+
 /// Force of the gas on one set of virtual particles: m times the acceleration that eq. (21) gives
 /// them from gas neighbours alone. For planar gas per metre of depth.
 template <int Dim>

@@ -19,7 +19,7 @@ using Catch::Matchers::Contains;
 using sphmbs::NumericalFailure;
 
 constexpr double spacing = 0.1;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 sphmbs::particles::Cloud<2> some_gas() { return test::disordered_cloud<2>(18, spacing, 71); }
@@ -44,7 +44,7 @@ TEMPLATE_LIST_TEST_CASE("the particle whose energy is not a number is named with
                         "[sph]", test::Policies) {
   for (const std::size_t sick : {0u, 150u, 323u}) {
     auto cloud = some_gas();
-    cloud.p[sick] = nan;
+    cloud.p[sick] = not_a_number;
     const std::string id = "gas particle #" + std::to_string(sick) + " ";
     CHECK_THAT((failure<TestType>(cloud)), Contains(id));
     CHECK_THAT((failure<TestType, sphmbs::time::Heun>(cloud)), Contains(id));
@@ -62,10 +62,10 @@ TEMPLATE_LIST_TEST_CASE("the particle whose state is not physical is named withi
   SECTION("infinite density") { cloud.rho[sick] = infinity; }
   SECTION("negative pressure") { cloud.p[sick] = -1e5; }
   SECTION("infinite pressure") { cloud.p[sick] = infinity; }
-  SECTION("velocity not a number") { cloud.v[sick][1] = nan; }
+  SECTION("velocity not a number") { cloud.v[sick][1] = not_a_number; }
   SECTION("infinite velocity") { cloud.v[sick][0] = infinity; }
-  SECTION("place not a number") { cloud.r[sick][0] = nan; }
-  SECTION("smoothing length not a number") { cloud.h[sick] = nan; }
+  SECTION("place not a number") { cloud.r[sick][0] = not_a_number; }
+  SECTION("smoothing length not a number") { cloud.h[sick] = not_a_number; }
   SECTION("negative smoothing length") { cloud.h[sick] = -0.125; }
   CHECK_THAT(failure<TestType>(cloud), Contains("gas particle #150 "));
 }
@@ -74,13 +74,13 @@ TEMPLATE_LIST_TEST_CASE("a sick virtual particle is named with its set", "[sph]"
                         test::Policies) {
   auto cloud = some_gas();
   for (std::size_t i = 100; i < 200; ++i) cloud.set[i] = 2;
-  cloud.p[150] = nan;
+  cloud.p[150] = not_a_number;
   CHECK_THAT(failure<TestType>(cloud), Contains("virtual particle #150 of set 2 "));
 }
 
 TEST_CASE("a failure says when, where and in what state the particle is", "[sph]") {
   auto cloud = some_gas();
-  cloud.p[150] = nan;
+  cloud.p[150] = not_a_number;
   const std::string text = failure<sphmbs::execution::Serial>(cloud);
   for (const char* part : {"step 1", "t = ", "dt = ", " at (", "v = (", "rho = ", "e = nan",
                            "h = ", " neighbours", "--cfl", "--step"})
@@ -90,7 +90,7 @@ TEST_CASE("a failure says when, where and in what state the particle is", "[sph]
 
 TEST_CASE("a failure reads the same for any number of threads", "[sph]") {
   auto cloud = test::disordered_cloud<2>(60, spacing, 72);
-  for (const std::size_t sick : {700u, 1500u, 3100u}) cloud.p[sick] = nan;
+  for (const std::size_t sick : {700u, 1500u, 3100u}) cloud.p[sick] = not_a_number;
   const auto tell = [&] {
     return test::complaint<NumericalFailure>([&] {
       sphmbs::sph::Fluid<test::Gas<2>, sphmbs::execution::OpenMP> fluid(
