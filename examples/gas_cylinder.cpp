@@ -33,7 +33,7 @@ void gas_cylinder(const examples::Settings& settings, Policy policy) {
   const int surface = cloud.add_virtual(examples::ring(lattice, domain, cylinder), at_rest, {dx});
 
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {3, 0}};  // [-], [m/s^2]
-  sph::Fluid<Gas, Policy> fluid(gas, domain, cloud, {}, policy);
+  sph::Fluid<Gas, Policy> fluid(gas, domain, std::move(cloud), {}, policy);
 
   examples::Session session(settings, "gas_cylinder", "airflow around a circular cylinder", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, XSPH 0.5");

@@ -21,7 +21,7 @@ int main() {
   cloud.add_virtual(lattice.points(slab.grown(4 * dx) - slab, domain, 4 * dx),
                     {.rho = 1.2, .p = 1e5}, {dx, 1.8});
 
-  sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = 1.4}}, domain, cloud);
+  sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = 1.4}}, domain, std::move(cloud));
   run(fluid, time::PredictorCorrector{}, {.until = 1e-3},
       [](const auto&, const sph::StepLimit&) {},
       Every(1e-4, [](auto& f) {

@@ -32,7 +32,7 @@ void sealed_cavity(const examples::Settings& settings, Policy policy) {
   cloud.add_virtual(lattice.points(cavity.grown(5 * dx) - cavity, domain, 5 * dx), at_rest, {dx});
 
   const Gas gas{.eos = {.gamma = 1.4}};
-  sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, cloud, walls, policy);
+  sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, std::move(cloud), walls, policy);
 
   examples::Session session(settings, "sealed_cavity", "gas compressed in a sealed cavity", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, XSPH 0.5");

@@ -26,7 +26,7 @@ void shock_tube(const examples::Settings& settings, Policy policy) {
   tube.fill(cloud);
 
   const Gas gas{.eos = {.gamma = 1.4}};
-  sph::Fluid<Gas, Policy> fluid(gas, tube.domain(), cloud, {}, policy);
+  sph::Fluid<Gas, Policy> fluid(gas, tube.domain(), std::move(cloud), {}, policy);
 
   examples::Session session(settings, case_name, "Sod's shock tube in " + std::to_string(dim) + "D",
                             fluid);

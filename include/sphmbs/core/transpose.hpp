@@ -48,23 +48,20 @@ SPHMBS_INLINE void transpose_four(const T* const (&at)[W], Pack<T, W>* field) {
 
 /// The records of `fields` numbers with the given W indices, turned into one pack a field. Whole
 /// cache lines are read and transposed in registers, which beats one gather a field severalfold.
-/// `fields` is a multiple of 4.
+/// `fields` is 4 to 12.
 template <int fields, class T, int W>
 SPHMBS_INLINE void load_transposed(const T* records, const std::uint32_t* index,
                                    Pack<T, W> (&out)[fields]) {
-  static_assert(fields % 4 == 0, "records are padded to whole groups of four numbers");
+  static_assert(fields >= 4 && fields <= 12, "two groups of four and one for the rest");
   const T* at[W];
-  for (int l = 0; l < W; ++l) at[l] = records + std::size_t{index[l]} * fields;
-  detail::transpose_four(at, out);
-  if constexpr (fields > 4) {
-    for (int l = 0; l < W; ++l) at[l] += 4;
-    detail::transpose_four(at, out + 4);
-  }
-  if constexpr (fields > 8) {
-    for (int l = 0; l < W; ++l) at[l] += 4;
-    detail::transpose_four(at, out + 8);
-  }
-  static_assert(fields <= 12, "unroll further groups here");
+  const auto group = [&](int first) SPHMBS_INLINE_LAMBDA {
+    for (int l = 0; l < W; ++l) at[l] = records + std::size_t{index[l]} * fields + first;
+    detail::transpose_four(at, out + first);
+  };
+  group(0);
+  if constexpr (fields > 8) group(4);
+  // The last group ends with the record; it may meet the one before.
+  if constexpr (fields > 4) group(fields - 4);
 }
 
 }  // namespace sphmbs

@@ -175,14 +175,18 @@ inline std::vector<double> points_xyz(std::span<const double> x, std::span<const
 /// vertex cell per particle (a single poly-vertex would make filters that select cells, such as
 /// Threshold, keep or drop all particles at once), and the time as field array `TimeValue`.
 ///
-/// @param path           file to create or replace; replaced only once complete
-/// @param positions_xyz  x, y, z of each particle [m], 3 x particles values; see points_xyz
-/// @param arrays         quantities of the particles; none is allowed
-/// @param time           physical time [s]
+/// @param path       file to create or replace; replaced only once complete
+/// @param positions  x, y, z of each particle [m], 3 x particles values, float or double; see
+///                   points_xyz
+/// @param arrays     quantities of the particles; none is allowed
+/// @param time       physical time [s]
 ///
 /// Throws std::invalid_argument if a length does not fit, OutputError if writing fails.
-inline void write_vtp(const std::filesystem::path& path, std::span<const double> positions_xyz,
-                      std::span<const PointArray> arrays, double time) {
+template <std::ranges::contiguous_range Positions>
+void write_vtp(const std::filesystem::path& path, const Positions& positions,
+               std::span<const PointArray> arrays, double time) {
+  using Coordinate = std::ranges::range_value_t<Positions>;
+  const std::span<const Coordinate> positions_xyz(std::ranges::data(positions), std::ranges::size(positions));
   static_assert(std::endian::native == std::endian::little, "raw data are written as they lie");
   if (positions_xyz.size() % 3 != 0) {
     throw std::invalid_argument("write_vtp: positions_xyz has " +
@@ -211,10 +215,11 @@ inline void write_vtp(const std::filesystem::path& path, std::span<const double>
         array.values);
   }
 
-  std::vector<std::int64_t> connectivity(particles);
-  std::iota(connectivity.begin(), connectivity.end(), std::int64_t{0});
-  std::vector<std::int64_t> offsets(particles);
-  std::iota(offsets.begin(), offsets.end(), std::int64_t{1});
+  // Particle i is the vertex of cell i: one array 0 ... n serves as vertices and, from its second
+  // entry on, as ends of the cells.
+  std::vector<std::int64_t> count(particles + 1);
+  std::iota(count.begin(), count.end(), std::int64_t{0});
+  const std::span<const std::int64_t> counted(count);
 
   std::string head =
       "<?xml version=\"1.0\"?>\n"
@@ -225,8 +230,8 @@ inline void write_vtp(const std::filesystem::path& path, std::span<const double>
           "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n" +
           array_elements + "</PointData>\n<Points>\n" + blocks.add("Points", 3, positions_xyz) +
           "</Points>\n<Verts>\n";
-  head += blocks.add("connectivity", 1, std::span<const std::int64_t>(connectivity));
-  head += blocks.add("offsets", 1, std::span<const std::int64_t>(offsets));
+  head += blocks.add("connectivity", 1, counted.first(particles));
+  head += blocks.add("offsets", 1, counted.last(particles));
   head += "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
   const std::string tail = "\n</AppendedData>\n</VTKFile>\n";
 

@@ -25,7 +25,7 @@ struct Record {
 /// Numbers a record takes in memory: records lie one after the other, so that a pair touches one or
 /// two cache lines of its neighbour instead of one a field.
 template <int Dim>
-inline constexpr int record_size = (2 * Dim + 6 + 3) / 4 * 4;
+inline constexpr int record_size = 2 * Dim + 6;
 
 namespace detail {
 

@@ -34,10 +34,11 @@ class Fluid {
   using PolicyType = Policy;
   using Search = neighbours::CellList<dim, T, Policy>;
 
+  /// Takes the cloud and gives its memory back: move it in where particles are many.
   /// @throws InvalidInput for an empty cloud, parameters out of range, or a periodic axis shorter
   ///         than two support radii.
   Fluid(const Scheme& scheme, const geometry::Domain<dim>& domain,
-        const particles::Cloud<dim>& cloud, const Motion& motion = {}, Policy = {})
+        particles::Cloud<dim> cloud, const Motion& motion = {}, Policy = {})
       : scheme_(scheme),
         domain_(domain),
         motion_(motion),
