@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/atomic.hpp>
 #include <sphmbs/execution/scan.hpp>
 #include <sphmbs/neighbours/cell_grid.hpp>
 #include <sphmbs/neighbours/find_neighbours.hpp>
@@ -9,18 +10,13 @@ namespace sphmbs::neighbours {
 
 namespace detail {
 
-/// A relaxed atomic count, legal in loop bodies of every policy.
-SPHMBS_INLINE std::uint32_t fetch_add(std::uint32_t* p, std::uint32_t v) {
-  return __atomic_fetch_add(p, v, __ATOMIC_RELAXED);
-}
-
 template <int Dim, class T>
 struct CountCells {
   particles::FieldsView<Dim, T> fields;
   CellGrid<Dim, T> grid;
   std::uint32_t* count;
   SPHMBS_INLINE void operator()(std::size_t i) const {
-    fetch_add(count + grid.cell(fields.position(i)), 1);
+    atomic::fetch_add(count + grid.cell(fields.position(i)), 1);
   }
 };
 
@@ -33,7 +29,7 @@ struct PlaceInCells {
   std::uint32_t* order;
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const std::uint32_t c = grid.cell(fields.position(i));
-    order[first[c] + fetch_add(placed + c, 1)] = static_cast<std::uint32_t>(i);
+    order[first[c] + atomic::fetch_add(placed + c, 1)] = static_cast<std::uint32_t>(i);
   }
 };
 

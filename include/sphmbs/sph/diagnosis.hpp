@@ -1,43 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <sphmbs/particles/particles.hpp>
-#include <sphmbs/sph/stages.hpp>
 
 namespace sphmbs::sph {
 
-/// One sentence on a particle whose state went wrong, and what to try.
-template <class Policy, int Dim, class T>
-std::string describe_culprit(particles::Particles<Dim, T, Policy>& particles,
-                             const Culprit& culprit, double time, double dt, std::uint64_t step) {
-  const auto fields = particles.fields();
-  const auto rates = particles.rates();
-  const auto read = [&]<class U>(const U* field) {
-    U value{};
-    Policy::download(&value, field + culprit.index, sizeof value);
+/// When a state was found that cannot be gone on with.
+struct Moment {
+  std::uint64_t step;  // counted from 1
+  double time;         // [s]
+  double dt;           // length of the step, or the part of it up to the stage [s]
+};
+
+/// One sentence on what went wrong, on the particle with the given id at this stage, and on what to
+/// try.
+template <class Policy, int Dim, class T, class Eos>
+std::string describe_culprit(particles::Particles<Dim, T, Policy>& particles, const Eos& eos,
+                             std::string_view what, std::uint32_t id, const Moment& moment) {
+  const auto read = [&]<class U>(const U* field, std::size_t n) {
+    std::vector<U> value(n);
+    Policy::download(value.data(), field, n * sizeof(U));
     return value;
   };
+  const auto fields = particles.fields();
+  const auto ids = read(fields.id, particles.size());
+  const auto i = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+  constexpr auto size = static_cast<std::size_t>(particles::record_size<Dim>);
+  const std::vector<T> numbers = read(particles.records() + i * size, size);
+  const auto s = particles::load_record<Dim>(numbers.data(), 0);
+  const int set = read(fields.set + i, 1)[0];
+  const int neighbours = read(particles.rates().pairs + i, 1)[0];
+
   std::ostringstream text;
   text.precision(6);
-  const int set = read(fields.set);
-  text << "state not finite or not physical at step " << step << ", t = " << time
-       << " s (dt = " << dt << " s): ";
-  if (set == particles::gas) text << "gas particle #" << culprit.id;
-  else text << "virtual particle #" << culprit.id << " of set " << set;
-  const auto vector = [&](T* const(&field)[Dim]) {
+  const auto vector = [&](const Vec<Dim, T>& x) {
     text << "(";
-    for (int k = 0; k < Dim; ++k) text << (k > 0 ? ", " : "") << read(field[k]);
+    for (int k = 0; k < Dim; ++k) text << (k > 0 ? ", " : "") << x[k];
     text << ")";
   };
+  text << what << " at step " << moment.step << ", t = " << moment.time
+       << " s (dt = " << moment.dt << " s): ";
+  if (set == particles::gas) text << "gas particle #" << id;
+  else text << "virtual particle #" << id << " of set " << set;
   text << " at ";
-  vector(fields.r);
+  vector(s.r);
   text << " m, v = ";
-  vector(fields.v);
-  text << " m/s, rho = " << read(fields.rho) << " kg/m^3, e = " << read(fields.e)
-       << " J/kg, h = " << read(fields.h) << " m, " << read(rates.pairs)
+  vector(s.v);
+  text << " m/s, rho = " << s.rho << " kg/m^3, e = " << eos.internal_energy(s.rho, s.p)
+       << " J/kg, p = " << s.p << " Pa, h = " << s.h << " m, " << neighbours
        << " neighbours; try a smaller step (--cfl or --step), or a finer or smoother initial state";
   return text.str();
 }

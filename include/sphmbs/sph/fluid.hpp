@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
@@ -54,12 +55,15 @@ class Fluid {
   }
 
   /// Goes to the stage y + scale k at time() + dt.
+  /// @throws NumericalFailure naming a particle, its place and its state where the state at this
+  ///         stage is not finite, or density, smoothing length or squared sound speed is not
+  ///         positive, or particles could move by more than they reach.
   void stage(double scale, double dt) {
+    write_records(scale, dt);
     lists_.staged(dt);
-    if (lists_.outdated(dt)) rebuild_lists(dt);
-    const auto timer = statistics_.time(Phase::update);
-    Policy::for_each(size(), WriteRecords<Scheme, T, Motion>{advance(scale, dt), scheme_,
-                                                             particles_.records()});
+    if (!lists_.outdated(dt)) return;
+    rebuild_lists(dt);
+    write_records(scale, dt);
   }
 
   /// k = keep k + f(stage).
@@ -88,20 +92,14 @@ class Fluid {
   }
 
   /// y = y + scale k, and the time goes on by dt.
-  /// @throws NumericalFailure naming the particle, its place and its state where the new state is
-  ///         not finite, or density, smoothing length or squared sound speed is not positive.
   void commit(double scale, double dt) {
     const auto timer = statistics_.time(Phase::update);
-    const Culprit culprit = execution::reduce<Policy>(
-        size(), Culprit{},
-        CommitStep<Scheme, T, Motion>{advance(scale, dt), scheme_, space_});
+    Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
     time_ += dt;
+    last_dt_ = dt;
     exchange_.committed(scale);
     ++statistics_.steps;
     lists_.stepped(dt);
-    if (culprit.id != Culprit::none)
-      throw NumericalFailure(
-          describe_culprit<Policy>(particles_, culprit, time_, dt, statistics_.steps));
   }
 
   /// Time of the state y [s].
@@ -159,13 +157,32 @@ class Fluid {
             static_cast<T>(scale), static_cast<T>(time_), static_cast<T>(dt)};
   }
 
+  void write_records(double scale, double dt) {
+    const auto timer = statistics_.time(Phase::update);
+    using Write = WriteRecords<Scheme, T, Motion>;
+    culprit_.upload(std::array{Write::nobody});
+    Policy::for_each(size(), Write{advance(scale, dt), scheme_, particles_.records(),
+                                   culprit_.data()});
+    const std::uint32_t culprit = culprit_.download()[0];
+    if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
+  }
+
   void rebuild_lists(double dt) {
     const auto timer = statistics_.time(Phase::neighbours);
     ++statistics_.rebuilds;
     const double h_max =
         execution::reduce<Policy>(size(), Largest{}, SmoothingLength<T>{particles_.fields().h}).h;
-    search_.rebuild(particles_, domain_,
-                    lists_.plan(dim, Scheme::Kernel::support, h_max, dt));
+    const auto reach = lists_.plan(dim, Scheme::Kernel::support, h_max, dt);
+    if (reach.skin > reach.support * h_max)
+      fail("particles may pass each other unseen within this step", step_limit(survey_, 1).id, dt);
+    search_.rebuild(particles_, domain_, reach);
+  }
+
+  [[noreturn]] void fail(std::string_view what, std::uint32_t id, double dt) {
+    // At the beginning of a step the state is the work of the step before.
+    const bool begins = dt == 0 && statistics_.steps > 0;
+    const Moment moment{statistics_.steps + (begins ? 0 : 1), time_ + dt, begins ? last_dt_ : dt};
+    throw NumericalFailure(describe_culprit<Policy>(particles_, scheme_.eos, what, id, moment));
   }
 
   Scheme scheme_;
@@ -178,7 +195,9 @@ class Fluid {
   ListSchedule lists_;
   Survey<dim> survey_;
   Statistics statistics_;
+  execution::Field<std::uint32_t, Policy> culprit_{1};
   double time_ = 0;
+  double last_dt_ = 0;
   double gas_mass_ = 0;
   Exchange<dim> exchange_;
 };

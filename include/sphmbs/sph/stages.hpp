@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <sphmbs/boundary/motion.hpp>
+#include <sphmbs/core/atomic.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/record.hpp>
@@ -54,50 +55,50 @@ struct Advance {
   }
 };
 
-/// Writes the records of a stage: predicted state, pressure and sound speed.
+/// Writes the records of a stage (predicted state, pressure and sound speed) and notes the lowest id
+/// among particles whose state is not finite or not physical: density, smoothing length and squared
+/// sound speed are positive. Checked here, before such a state spreads to the neighbours.
 template <class Scheme, class T, class Motion>
 struct WriteRecords {
   static constexpr int dim = Scheme::dim;
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   Advance<dim, T, Motion> advance;
   Scheme scheme;
   T* records;
+  std::uint32_t* culprit;
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const Stepped<dim, T> y = advance(i);
     const T p = scheme.eos.pressure(y.rho, y.e);
+    const T c = scheme.eos.sound_speed(y.rho, p);
     particles::store_record<dim, T>(
         records, i,
         {.r = y.r,
          .v = y.v,
          .rho = y.rho,
          .p = p,
-         .c = scheme.eos.sound_speed(y.rho, p),
+         .c = c,
          .h = y.h,
          .m = advance.fields.m[i],
          .shell = advance.fields.set[i] == particles::gas ? T(0) : T(1)});
+    // Written so that a NaN, which compares false, is caught.
+    bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
+    for (int k = 0; k < dim; ++k) good = good && finite(y.r[k]) && finite(y.v[k]);
+    if (!good) atomic::lower(culprit, advance.fields.id[i]);
   }
+
+ private:
+  static SPHMBS_INLINE bool finite(T x) { return math::abs(x) <= std::numeric_limits<T>::max(); }
 };
 
-/// The first particle, by id, whose new state is not finite or not physical.
-struct Culprit {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t id = none;
-  std::uint32_t index = none;  // its place in the fields
-
-  SPHMBS_INLINE void combine(const Culprit& other) {
-    if (other.id < id) *this = other;
-  }
-};
-
-/// Writes y(t + dt) over y(t), wraps positions into the periodic box, and checks the new state.
+/// Writes y(t + dt) over y(t) and wraps positions into the periodic box.
 template <class Scheme, class T, class Motion>
 struct CommitStep {
   static constexpr int dim = Scheme::dim;
   Advance<dim, T, Motion> advance;
-  Scheme scheme;
   geometry::Periodicity<dim, T> space;
 
-  SPHMBS_INLINE Culprit operator()(std::size_t i) const {
+  SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     const Stepped<dim, T> y = advance(i);
     fields.set_position(i, space.wrap(y.r));
@@ -105,17 +106,6 @@ struct CommitStep {
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
     fields.h[i] = y.h;
-    const T c = scheme.eos.sound_speed(y.rho, scheme.eos.pressure(y.rho, y.e));
-    // Written so that a NaN, which compares false, is caught.
-    bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
-    for (int k = 0; k < dim; ++k) good = good && finite(y.r[k]) && finite(y.v[k]);
-    if (good) return {};
-    return {fields.id[i], static_cast<std::uint32_t>(i)};
-  }
-
- private:
-  static SPHMBS_INLINE bool finite(T x) {
-    return math::abs(x) <= std::numeric_limits<T>::max();
   }
 };
 
