@@ -17,7 +17,7 @@ void gas_cylinder(const examples::Settings& settings, Policy policy) {
   examples::require(dx <= 2, "--spacing", dx, "at most 2 m, a tenth of the cylinder");
 
   // Where: a pipe, periodic along x, with a cylinder across it.
-  const geometry::Box<2> pipe{.lower = {0, 0}, .upper = {100, 50}};              // [m]
+  const geometry::Box<2> pipe{.lower = {0, 0}, .upper = {100, 50}};                // [m]
   const geometry::Ball<2> cylinder{.centre = {40, 25}, .radius = 10 + 0.01 * dx};  // [m]
   const geometry::Domain<2> domain{.box = pipe, .periodic = {true, false}};
   const geometry::Lattice<2> lattice{.spacing = dx};
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "gas_cylinder",
                                       .title = "airflow around a circular cylinder in a pipe",
                                       .backends = examples::backends(),
-                                      .defaults = {.spacing = 0.5, .until = 1, .cfl = 0.25}});
+                                      .defaults = {.spacing = 0.5, .until = 1, .cfl = 0.4}});
   return examples::guarded_main(argc, argv, command_line, [](const examples::Settings& settings) {
     examples::with_backend(settings, [](const auto& s, auto policy) { gas_cylinder(s, policy); });
   });

@@ -32,7 +32,8 @@ void sealed_cavity(const examples::Settings& settings, Policy policy) {
   cloud.add_virtual(lattice.points(cavity.grown(5 * dx) - cavity, domain, 5 * dx), at_rest, {dx});
 
   const Gas gas{.eos = {.gamma = 1.4}};
-  sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, std::move(cloud), walls, policy);
+  sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, std::move(cloud), walls,
+                                                       policy);
 
   examples::Session session(settings, "sealed_cavity", "gas compressed in a sealed cavity", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, XSPH 0.5");
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "sealed_cavity",
                                       .title = "gas compressed in a sealed cavity",
                                       .backends = examples::backends(),
-                                      .defaults = {.spacing = 0.02, .until = 0.8, .cfl = 0.25}});
+                                      .defaults = {.spacing = 0.02, .until = 0.8, .cfl = 0.4}});
   return examples::guarded_main(argc, argv, command_line, [](const examples::Settings& settings) {
     examples::with_backend(settings, [](const auto& s, auto policy) { sealed_cavity(s, policy); });
   });

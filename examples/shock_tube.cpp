@@ -14,13 +14,13 @@ const std::string case_name = dim == 1 ? "shock_tube" : "shock_tube_" + std::to_
 
 template <class Smoothing, class Policy>
 void shock_tube(const examples::Settings& settings, Policy policy) {
-  using Gas = sph::RiemannSph<kernels::QuinticSpline<dim>, riemann::Acoustic, eos::IdealGas,
-                              Smoothing>;
+  using Gas =
+      sph::RiemannSph<kernels::QuinticSpline<dim>, riemann::Acoustic, eos::IdealGas, Smoothing>;
   const double dx = settings.spacing;
   examples::require(dx <= 0.025, "--spacing", dx, "at most 0.025 m, a fortieth of the tube");
 
-  // Particles of (nearly) equal mass on both sides, so that the right ones are wider apart; the tube
-  // is as wide as its periodic sides ask for, and ends in fixed walls of virtual particles.
+  // Particles of (nearly) equal mass on both sides, so that the right ones are wider apart; the
+  // tube is as wide as its periodic sides ask for, and ends in fixed walls of virtual particles.
   const examples::SodTube<dim> tube(dx);
   particles::Cloud<dim> cloud;
   tube.fill(cloud);
@@ -30,8 +30,9 @@ void shock_tube(const examples::Settings& settings, Policy policy) {
 
   examples::Session session(settings, case_name, "Sod's shock tube in " + std::to_string(dim) + "D",
                             fluid);
-  session.note("gas", std::string("ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, ") +
-                          (Smoothing::acts ? "XSPH 0.5" : "no XSPH"));
+  session.note("gas",
+               std::string("ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, ") +
+                   (Smoothing::acts ? "XSPH 0.5" : "no XSPH"));
   session.record("energy", "J", [&] { return fluid.totals().energy(); });
   session.run(time::PredictorCorrector{}, 20, 4);
   examples::compare_with_exact(session, fluid, tube);
@@ -43,13 +44,15 @@ int main(int argc, char** argv) {
       {.name = case_name,
        .title = "Sod's shock tube in " + std::to_string(dim) + "D",
        .backends = examples::backends(),
-       .defaults = {.spacing = dim == 1 ? 0.5 / 356 : 0.5 / 128, .until = 0.2, .cfl = 0.25}});
+       .defaults = {.spacing = dim == 1 ? 0.5 / 356 : 0.5 / 128, .until = 0.2, .cfl = 0.4}});
   bool no_xsph = false;
   command_line.add_flag("--no-xsph", no_xsph, "move particles with their own velocities");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
     examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (no_xsph) shock_tube<sph::NoXsph>(s, policy);
-      else shock_tube<sph::Xsph>(s, policy);
+      if (no_xsph)
+        shock_tube<sph::NoXsph>(s, policy);
+      else
+        shock_tube<sph::Xsph>(s, policy);
     });
   });
 }

@@ -14,8 +14,8 @@
 namespace sphmbs::examples {
 
 /// The outermost lattice points of the cylinder: as many as lie in an annulus of 7.0886 layers by
-/// area, which are the paper's 4 296 at a spacing of 0.1 m. Of a shell that is cut, points nearer to
-/// the x direction stay.
+/// area, which are the paper's 4 296 at a spacing of 0.1 m. Of a shell that is cut, points nearer
+/// to the x direction stay.
 inline std::vector<Vec<2>> ring(const geometry::Lattice<2>& lattice,
                                 const geometry::Domain<2>& domain,
                                 const geometry::Ball<2>& cylinder) {
@@ -33,8 +33,7 @@ inline std::vector<Vec<2>> ring(const geometry::Lattice<2>& lattice,
   };
   std::stable_sort(points.begin(), points.end(), order);
   const double all = static_cast<double>(points.size());
-  if (radius > layers && count < all)
-    points.resize(static_cast<std::size_t>(std::lround(count)));
+  if (radius > layers && count < all) points.resize(static_cast<std::size_t>(std::lround(count)));
   return points;
 }
 
@@ -53,8 +52,7 @@ void compare_with_reference(Session<Fluid>& session) {
       {"above", "(40, 40) above", &CylinderReference::speed_above, &CylinderReference::p_above},
       {"downstream", "(55, 25) downstream", &CylinderReference::speed_downstream,
        &CylinderReference::p_downstream},
-      {"far", "(65, 40) far downstream", &CylinderReference::speed_far,
-       &CylinderReference::p_far}};
+      {"far", "(65, 40) far downstream", &CylinderReference::speed_far, &CylinderReference::p_far}};
   const History& history = session.history();
   const double until = session.settings().until;
   std::vector<double> time;
@@ -64,7 +62,8 @@ void compare_with_reference(Session<Fluid>& session) {
   const auto panel = [&](const std::string& title, const std::string& label,
                          const std::string& name, double CylinderReference::*member) {
     std::vector<double> reference;
-    for (std::size_t i = 0; i < time.size(); ++i) reference.push_back(cylinder_reference[i].*member);
+    for (std::size_t i = 0; i < time.size(); ++i)
+      reference.push_back(cylinder_reference[i].*member);
     Curve exact;
     exact.label = "finite volumes";
     exact.x = time;
@@ -95,12 +94,12 @@ void compare_with_reference(Session<Fluid>& session) {
     session.result(pressure + "_rms", rms_difference(history, pressure, time, reference, 0.2, 1),
                    std::nullopt, "Pa");
   }
-  const auto force = panel("force on the cylinder", "force [N/m]", "force",
-                           &CylinderReference::force);
-  if (!time.empty())
-    session.result("force", history.at("force", time.back()), force.back(), "N/m");
-  session.curves("history", "gas_cylinder, spacing " + format_exact(session.settings().spacing) +
-                                " m", panels, 4);
+  const auto force =
+      panel("force on the cylinder", "force [N/m]", "force", &CylinderReference::force);
+  if (!time.empty()) session.result("force", history.at("force", time.back()), force.back(), "N/m");
+  session.curves("history",
+                 "gas_cylinder, spacing " + format_exact(session.settings().spacing) + " m", panels,
+                 4);
 }
 
 }  // namespace sphmbs::examples

@@ -15,10 +15,11 @@ namespace sphmbs::examples {
 /// 1e4 Pa and 1 m^2 at first. The walls are so slow, Mach 0.005, that it holds to 1e-4.
 inline double isentropic_increase(double l) { return 25000 * (std::pow(1 / (l * l), 0.4) - 1); }
 
-/// Energies over time: the work of the walls on the gas (`work`), that of the force which drives the
-/// walls, their own compression included (`work_driving`), and the increase of the energy of gas and
-/// of virtual particles. work_driving = energy_gas + energy_virtual up to the integrator; work exceeds
-/// energy_gas by the heat that the virtual particles, which lag behind the gas, take from it.
+/// Energies over time: the work of the walls on the gas (`work`), that of the force which drives
+/// the walls, their own compression included (`work_driving`), and the increase of the energy of
+/// gas and of virtual particles. work_driving = energy_gas + energy_virtual up to the integrator;
+/// work exceeds energy_gas by the heat that the virtual particles, which lag behind the gas, take
+/// from it.
 template <class Fluid>
 void record_energies(Session<Fluid>& session, Fluid& fluid) {
   const auto start = fluid.totals();
@@ -72,15 +73,22 @@ void compare_with_reference(Session<Fluid>& session, const boundary::Contraction
   for (Curve* paper : {&paper_work, &paper_energy})
     paper->style = {.line = Line::none, .marker = Marker::circle};
   std::vector<Panel> panels(3);
-  panels[0] = {.title = "energy", .x_label = "t [s]", .y_label = "[J/m]",
+  panels[0] = {.title = "energy",
+               .x_label = "t [s]",
+               .y_label = "[J/m]",
                .curves = {history.curve("energy_gas", "energy of the gas"),
                           history.curve("work", "work of the walls"), exact}};
-  panels[1] = {.title = "mean density", .x_label = "t [s]", .y_label = "density [kg/m³]",
+  panels[1] = {.title = "mean density",
+               .x_label = "t [s]",
+               .y_label = "density [kg/m³]",
                .curves = {history.curve("rho_mean", "sphmbs"), density}};
-  panels[2] = {.title = "against the isentropic value", .x_label = "t [s]",
-               .y_label = "relative difference", .curves = {energy, work, paper_energy, paper_work}};
-  session.curves("history", "sealed_cavity, spacing " +
-                                format_exact(session.settings().spacing) + " m", panels, 3);
+  panels[2] = {.title = "against the isentropic value",
+               .x_label = "t [s]",
+               .y_label = "relative difference",
+               .curves = {energy, work, paper_energy, paper_work}};
+  session.curves("history",
+                 "sealed_cavity, spacing " + format_exact(session.settings().spacing) + " m",
+                 panels, 3);
 }
 
 }  // namespace sphmbs::examples

@@ -33,8 +33,8 @@ class SodTube {
                                   : across_ / 2) {
     dx_ = jump / static_cast<double>(dense_);
     width_ = Dim == 1 ? 1 : static_cast<double>(across_) * dx_;
-    const double ratio = std::pow(static_cast<double>(across_) / static_cast<double>(sparse_across_),
-                                  Dim - 1);
+    const double ratio =
+        std::pow(static_cast<double>(across_) / static_cast<double>(sparse_across_), Dim - 1);
     sparse_ = std::lround(0.125 * static_cast<double>(dense_) * ratio);
   }
 
@@ -73,8 +73,7 @@ class SodTube {
           (i >= 0 && i < n ? gas : wall).push_back(x);
         }
     // The volume of a particle is step * side^(Dim-1), of which the resolution is the cube's edge.
-    const double edge =
-        Dim == 1 ? step : std::pow(step * std::pow(side, Dim - 1), 1.0 / Dim);
+    const double edge = Dim == 1 ? step : std::pow(step * std::pow(side, Dim - 1), 1.0 / Dim);
     const particles::State<Dim> s{.rho = state.rho, .p = state.p};
     cloud.add_gas(gas, s, {edge});
     cloud.add_virtual(wall, s, {edge});
@@ -141,8 +140,9 @@ void compare_with_exact(Session<Fluid>& session, Fluid& fluid, const SodTube<Dim
     panels[static_cast<std::size_t>(k)] = {
         .x_label = "x [m]", .y_label = labels[k], .curves = {points[k], line}};
   }
-  session.curves("profiles", "Sod's shock tube, " + std::to_string(tube.along()) +
-                                 " particles along the tube, t = " + format_number(t) + " s",
+  session.curves("profiles",
+                 "Sod's shock tube, " + std::to_string(tube.along()) +
+                     " particles along the tube, t = " + format_number(t) + " s",
                  panels, 3);
 }
 

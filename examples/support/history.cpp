@@ -14,16 +14,16 @@ void History::add(const std::string& name, const std::string& unit) {
 }
 
 void History::begin(const std::filesystem::path& path, const std::string& comment) {
-  std::vector<CsvWriter::Column> columns{{"t", "s"}};
+  std::vector<io::CsvWriter::Column> columns{{"t", "s"}};
   columns.insert(columns.end(), columns_.begin(), columns_.end());
-  file_ = std::make_unique<CsvWriter>(path, comment, columns);
+  file_ = std::make_unique<io::CsvWriter>(path, comment, columns);
   file_->flush();
 }
 
 void History::row(double time, const std::vector<double>& values) {
   if (values.size() != values_.size())
-    throw std::invalid_argument("History::row: " + std::to_string(values.size()) +
-                                " values for " + std::to_string(values_.size()) + " quantities");
+    throw std::invalid_argument("History::row: " + std::to_string(values.size()) + " values for " +
+                                std::to_string(values_.size()) + " quantities");
   time_.push_back(time);
   std::vector<double> line{time};
   for (std::size_t k = 0; k < values.size(); ++k) {

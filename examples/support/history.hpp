@@ -35,10 +35,10 @@ class History {
   Curve curve(const std::string& name, const std::string& label) const;
 
  private:
-  std::vector<CsvWriter::Column> columns_;
+  std::vector<io::CsvWriter::Column> columns_;
   std::vector<double> time_;
   std::vector<std::vector<double>> values_;
-  std::unique_ptr<CsvWriter> file_;
+  std::unique_ptr<io::CsvWriter> file_;
 };
 
 /// Root mean square of (value - reference) over the reference times in [from, to] that the history

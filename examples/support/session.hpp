@@ -36,7 +36,9 @@ class Session {
         start_(fluid.totals()) {}
 
   /// A line of the banner.
-  void note(std::string key, std::string value) { notes_.push_back({std::move(key), std::move(value), ""}); }
+  void note(std::string key, std::string value) {
+    notes_.push_back({std::move(key), std::move(value), ""});
+  }
 
   /// Samples the gas at a place: columns speed_<name> and p_<name>.
   void probe(const std::string& name, const Place& place) {
@@ -68,12 +70,13 @@ class Session {
     history_.begin(file("history.csv"), name_ + ", sphmbs " + std::string(version));
     const double interval = settings_.until / samples;
     const Clock::time_point begin = Clock::now();
-    PvdCollection collection(file("fields.pvd"));
+    io::PvdCollection collection(file("fields.pvd"));
     const Schedule schedule{settings_.until, settings_.cfl, settings_.step};
-    sphmbs::run(fluid_, integrator, schedule,
-                [&](Fluid&, const sph::StepLimit& limit) { progress(limit); },
-                Every(interval, [&](Fluid&) { sample(); }, Timing::next_step),
-                Every(settings_.until / fields, [&](Fluid&) { write_fields(collection); }));
+    sphmbs::run(
+        fluid_, integrator, schedule, [&](Fluid&, const sph::StepLimit& limit) { progress(limit); },
+        Every(
+            interval, [&](Fluid&) { sample(); }, Timing::next_step),
+        Every(settings_.until / fields, [&](Fluid&) { write_fields(collection); }));
     wall_seconds_ = std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
@@ -110,7 +113,8 @@ class Session {
   std::filesystem::path file(const std::string& name) const { return settings_.output / name; }
 
   void banner(bool is_new) {
-    std::vector<BannerLine> lines{{"case", name_, settings_.output.string() + (is_new ? " (new)" : "")}};
+    std::vector<BannerLine> lines{
+        {"case", name_, settings_.output.string() + (is_new ? " (new)" : "")}};
     lines.insert(lines.end(), notes_.begin(), notes_.end());
     lines.push_back({"particles",
                      format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
@@ -127,7 +131,8 @@ class Session {
     lines.push_back({"step", fixed + limit_text(limit), ""});
     report_.banner(title_, lines);
     if (settings_.step && *settings_.step > 2 * limit.dt)
-      report_.warn("long step", "the fixed step is more than twice what the stability limits allow");
+      report_.warn("long step",
+                   "the fixed step is more than twice what the stability limits allow");
   }
 
   // What the stability limits allow at the start, and where the particle is that sets it.
@@ -135,7 +140,8 @@ class Session {
     using Policy = typename Fluid::PolicyType;
     const auto fields = fluid_.particles().fields();
     const auto id = download<Policy>(fields.id, fluid_.size());
-    const auto at = static_cast<std::size_t>(std::find(id.begin(), id.end(), limit.id) - id.begin());
+    const auto at =
+        static_cast<std::size_t>(std::find(id.begin(), id.end(), limit.id) - id.begin());
     std::string text = "at most " + format_number(limit.dt, 3) + " s at cfl " +
                        format_exact(settings_.cfl) + " (" + std::string(limit.reason) + " at (";
     for (int k = 0; k < dim; ++k) {
@@ -165,7 +171,7 @@ class Session {
     output_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  void write_fields(PvdCollection& collection) {
+  void write_fields(io::PvdCollection& collection) {
     const Clock::time_point begin = Clock::now();
     const std::string number = std::to_string(10000 + frames_++).substr(1);
     write_snapshot(file("fields_" + number + ".vtp"), fluid_);
@@ -198,8 +204,8 @@ class Session {
     s.peak_memory_bytes = peak_memory();
     s.conservation.mass = (end.mass - start_.mass) / start_.mass;
     const Vec<dim> gained = end.momentum - start_.momentum - received.impulse();
-    s.conservation.momentum = std::sqrt(norm2(gained)) /
-                              std::sqrt(2 * end.mass * (end.kinetic + end.internal));
+    s.conservation.momentum =
+        std::sqrt(norm2(gained)) / std::sqrt(2 * end.mass * (end.kinetic + end.internal));
     const double energy = end.energy() + end.virtual_internal - start_.energy() -
                           start_.virtual_internal - received.body_work() - received.driving_work();
     s.conservation.energy = energy / (start_.energy() + start_.virtual_internal);

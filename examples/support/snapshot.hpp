@@ -59,7 +59,7 @@ void write_snapshot(const std::filesystem::path& path, Fluid& fluid) {
     const auto x = download<Policy>(field, n);
     return std::vector<float>(x.begin(), x.end());
   };
-  std::vector<PointArray> arrays;
+  std::vector<io::PointArray> arrays;
   arrays.push_back({"velocity [m/s]", 3, vectors(fields.v)});
   arrays.push_back({"density [kg/m3]", 1, scalars(fields.rho)});
   arrays.push_back({"pressure [Pa]", 1, pressures(fluid)});
@@ -67,7 +67,7 @@ void write_snapshot(const std::filesystem::path& path, Fluid& fluid) {
   arrays.push_back({"set", 1, download<Policy>(fields.set, n)});
   const auto id = download<Policy>(fields.id, n);
   arrays.push_back({"id", 1, std::vector<std::int32_t>(id.begin(), id.end())});
-  write_vtp(path, vectors(fields.r), arrays, fluid.time());
+  io::write_vtp(path, vectors(fields.r), arrays, fluid.time());
 }
 
 /// Pictures of speed, pressure and density of plane gas: speed_<number>.png and so on.

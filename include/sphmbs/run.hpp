@@ -15,8 +15,8 @@ namespace sphmbs {
 
 /// How long to run and how long a step may be.
 struct Schedule {
-  double until;                // end time [s]
-  double cfl = 0.25;           // share of the stability limits, where `step` is not given [-]
+  double until;                     // end time [s]
+  double cfl = 0.4;                 // share of the stability limits, where `step` is not given [-]
   std::optional<double> step = {};  // fixed step [s]
 
   /// @throws InvalidInput for numbers that are not positive and finite, or a cfl above 1.
@@ -89,8 +89,10 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
       if (!schedule.step) ((wait = std::min(wait, observers.barrier() - system.time())), ...);
       // Whole steps of equal length up to the next observation, instead of a short last one.
       const double whole = wait / std::max(1.0, std::ceil(wait / limit.dt - 1e-9));
-      if (schedule.step) limit.dt = std::min(limit.dt, left);
-      else limit.dt = whole;
+      if (schedule.step)
+        limit.dt = std::min(limit.dt, left);
+      else
+        limit.dt = whole;
       report(system, limit);
       return limit.dt;
     });

@@ -13,9 +13,9 @@ namespace sphmbs::boundary {
 template <class M, class V = Vec<2, double>>
 concept Motion = std::is_trivially_copyable_v<M> &&
     requires(const M motion, int set, V r, typename V::Component t) {
-      { motion.position(set, r, t, t) } -> std::same_as<V>;
-      { motion.velocity(set, r, t) } -> std::same_as<V>;
-    };
+  { motion.position(set, r, t, t) } -> std::same_as<V>;
+  { motion.velocity(set, r, t) } -> std::same_as<V>;
+};
 
 /// All virtual particles stay where they are.
 struct Fixed {

@@ -16,8 +16,8 @@ SPHMBS_INLINE std::uint32_t fetch_add(std::uint32_t* p, std::uint32_t value) {
 /// Lowers *p to value where it is above.
 SPHMBS_INLINE void lower(std::uint32_t* p, std::uint32_t value) {
   std::uint32_t now = __atomic_load_n(p, __ATOMIC_RELAXED);
-  while (value < now && !__atomic_compare_exchange_n(p, &now, value, false, __ATOMIC_RELAXED,
-                                                     __ATOMIC_RELAXED)) {
+  while (value < now &&
+         !__atomic_compare_exchange_n(p, &now, value, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
 }
 

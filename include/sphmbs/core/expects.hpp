@@ -11,8 +11,7 @@ namespace sphmbs {
 /// Precondition on a parameter, checked on the host before any work starts.
 /// @throws InvalidInput naming the parameter, its value and what is allowed, in one sentence.
 template <class T>
-void expects(bool condition, std::string_view parameter, const T& value,
-             std::string_view allowed) {
+void expects(bool condition, std::string_view parameter, const T& value, std::string_view allowed) {
   if (condition) return;
   std::ostringstream message;
   message << parameter << " = " << value << ": must be " << allowed;

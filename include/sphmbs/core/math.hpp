@@ -52,7 +52,8 @@ SPHMBS_INLINE Pack<T, W> sqrt(Pack<T, W> a) {
   using V [[maybe_unused]] = typename Pack<T, W>::Vector;
   // The builtin on each lane would keep a branch for errno; the instruction has none.
 #if defined(__AVX512F__)
-  if constexpr (sizeof(V) == 64 && sizeof(T) == 8) return (V)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v);
+  if constexpr (sizeof(V) == 64 && sizeof(T) == 8)
+    return (V)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v);
 #endif
 #if defined(__AVX__)
   if constexpr (sizeof(V) == 32 && sizeof(T) == 8) return (V)_mm256_sqrt_pd((__m256d)a.v);

@@ -9,8 +9,8 @@
 
 #include <sphmbs/core/inline.hpp>
 
-/// Packs: several numbers that host loops compute with at once. Physics is written for a number type
-/// N, which is a plain floating-point number on devices and a Pack on hosts; so a pair loop is
+/// Packs: several numbers that host loops compute with at once. Physics is written for a number
+/// type N, which is a plain floating-point number on devices and a Pack on hosts; so a pair loop is
 /// vectorised by its types and not by the compiler's mood or by relaxed-math flags.
 namespace sphmbs {
 
@@ -101,8 +101,8 @@ SPHMBS_INLINE double lane_sum(double a) { return a; }
 SPHMBS_INLINE float lane_sum(float a) { return a; }
 template <class T, int W>
 SPHMBS_INLINE T lane_sum(Pack<T, W> a) {
-  if constexpr (W == 8) return ((a.v[0] + a.v[4]) + (a.v[2] + a.v[6])) +
-                               ((a.v[1] + a.v[5]) + (a.v[3] + a.v[7]));
+  if constexpr (W == 8)
+    return ((a.v[0] + a.v[4]) + (a.v[2] + a.v[6])) + ((a.v[1] + a.v[5]) + (a.v[3] + a.v[7]));
   T s = a.v[0];
   for (int l = 1; l < W; ++l) s += a.v[l];
   return s;

@@ -65,8 +65,7 @@ std::uint64_t exclusive_scan(std::size_t n, const Count* count, Offset* first) {
     sum += block_sum;
   }
   total.upload(start);
-  Policy::for_each(blocks,
-                   detail::OffsetBlock<Count, Offset>{count, total.data(), first, n});
+  Policy::for_each(blocks, detail::OffsetBlock<Count, Offset>{count, total.data(), first, n});
   return sum;
 }
 

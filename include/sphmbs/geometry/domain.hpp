@@ -44,8 +44,8 @@ struct Periodicity {
   SPHMBS_INLINE bool near_border(const Vec<Dim, T>& r, T reach) const {
     bool near = false;
     for (int k = 0; k < Dim; ++k)
-      near = near || (length[k] > 0 &&
-                      (r[k] < lower[k] + reach || r[k] > lower[k] + length[k] - reach));
+      near = near ||
+             (length[k] > 0 && (r[k] < lower[k] + reach || r[k] > lower[k] + length[k] - reach));
     return near;
   }
 };

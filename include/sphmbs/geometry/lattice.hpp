@@ -44,9 +44,9 @@ struct Lattice {
     for (int k = 0; k < Dim; ++k) {
       if (!domain.periodic[static_cast<std::size_t>(k)]) continue;
       const double intervals = domain.box.length(k) / spacing;
-      expects(std::abs(intervals - std::round(intervals)) < 1e-6 * intervals, "spacing", spacing,
-              "a whole fraction of the periodic length " + std::to_string(domain.box.length(k)) +
-                  " m");
+      expects(
+          std::abs(intervals - std::round(intervals)) < 1e-6 * intervals, "spacing", spacing,
+          "a whole fraction of the periodic length " + std::to_string(domain.box.length(k)) + " m");
     }
   }
 

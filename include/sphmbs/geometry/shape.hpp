@@ -36,15 +36,11 @@ struct Difference {
 };
 
 template <Shape A, Shape B>
-  requires(A::dim == B::dim)
-Union<A, B> operator|(A a, B b) {
-  return {a, b};
-}
+requires(A::dim == B::dim) Union<A, B>
+operator|(A a, B b) { return {a, b}; }
 
 template <Shape A, Shape B>
-  requires(A::dim == B::dim)
-Difference<A, B> operator-(A a, B b) {
-  return {a, b};
-}
+requires(A::dim == B::dim) Difference<A, B>
+operator-(A a, B b) { return {a, b}; }
 
 }  // namespace sphmbs::geometry

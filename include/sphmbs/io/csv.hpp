@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "sphmbs/core/error.hpp"
+#include <sphmbs/core/error.hpp>
 
-namespace sphmbs {
+namespace sphmbs::io {
 
 /// Table of numbers in a text file: one `# comment` line, one header line such as
 /// `t[s],speed_A[m/s]`, then one line per row. Numbers have 17 significant digits, so that reading
@@ -121,4 +121,4 @@ class CsvWriter {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-}  // namespace sphmbs
+}  // namespace sphmbs::io

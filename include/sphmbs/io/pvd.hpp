@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "sphmbs/io/vtp.hpp"
+#include <sphmbs/io/replace_file.hpp>
 
-namespace sphmbs {
+namespace sphmbs::io {
 
 /// List of the files of a run with their times (.pvd), which ParaView opens as one animation.
 ///
@@ -54,4 +54,4 @@ class PvdCollection {
   std::string entries_;
 };
 
-}  // namespace sphmbs
+}  // namespace sphmbs::io

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <numeric>
 #include <ranges>
@@ -14,14 +12,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "sphmbs/core/error.hpp"
+#include <sphmbs/core/error.hpp>
+#include <sphmbs/io/replace_file.hpp>
 
-namespace sphmbs {
+namespace sphmbs::io {
 
 /// One named quantity of all particles, as written to a .vtp file.
 struct PointArray {
@@ -64,36 +62,6 @@ inline std::string xml_escaped(std::string_view text) {
     }
   }
   return escaped;
-}
-
-/// Replaces the file `path` by the concatenated chunks. They go to `path` + ".tmp" first, which is
-/// renamed once it is complete, so that a reader never meets half a file. Two processes must not
-/// write the same path at the same time. Throws OutputError with path and reason; an earlier file
-/// `path` is then untouched.
-inline void replace_file(const std::filesystem::path& path,
-                         std::span<const std::span<const std::byte>> chunks) {
-  const auto failed = [&path](const std::error_code& reason) {
-    return OutputError("cannot write " + path.string() + ": " + reason.message());
-  };
-  const auto last_error = [] { return std::error_code(errno, std::generic_category()); };
-
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
-  std::FILE* const file = std::fopen(temporary.string().c_str(), "wb");
-  if (file == nullptr) throw failed(last_error());
-
-  std::error_code reason;
-  for (const auto chunk : chunks) {
-    if (reason || chunk.empty()) continue;
-    if (std::fwrite(chunk.data(), 1, chunk.size(), file) != chunk.size()) reason = last_error();
-  }
-  if (std::fclose(file) != 0 && !reason) reason = last_error();
-  if (!reason) std::filesystem::rename(temporary, path, reason);
-  if (reason) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw failed(reason);
-  }
 }
 
 /// Data of one .vtp file in the "appended raw" form: each block is its length in bytes as UInt64,
@@ -182,11 +150,12 @@ inline std::vector<double> points_xyz(std::span<const double> x, std::span<const
 /// @param time       physical time [s]
 ///
 /// Throws std::invalid_argument if a length does not fit, OutputError if writing fails.
-template <std::ranges::contiguous_range Positions>
+template <std::ranges::contiguous_range Positions = std::vector<double>>
 void write_vtp(const std::filesystem::path& path, const Positions& positions,
                std::span<const PointArray> arrays, double time) {
   using Coordinate = std::ranges::range_value_t<Positions>;
-  const std::span<const Coordinate> positions_xyz(std::ranges::data(positions), std::ranges::size(positions));
+  const std::span<const Coordinate> positions_xyz(std::ranges::data(positions),
+                                                  std::ranges::size(positions));
   static_assert(std::endian::native == std::endian::little, "raw data are written as they lie");
   if (positions_xyz.size() % 3 != 0) {
     throw std::invalid_argument("write_vtp: positions_xyz has " +
@@ -241,4 +210,4 @@ void write_vtp(const std::filesystem::path& path, const Positions& positions,
   detail::replace_file(path, chunks);
 }
 
-}  // namespace sphmbs
+}  // namespace sphmbs::io

@@ -10,8 +10,8 @@
 /// support, R >= support.
 namespace sphmbs::kernels {
 
-/// What a smoothing function offers. `shape` and `slope` must also accept a Pack: write them for any
-/// number type, with math::max instead of branches. `slope` is the derivative of `shape` by R.
+/// What a smoothing function offers. `shape` and `slope` must also accept a Pack: write them for
+/// any number type, with math::max instead of branches. `slope` is the derivative of `shape` by R.
 template <class K>
 concept Kernel = std::is_trivially_copyable_v<K> && requires(double R) {
   { K::dim } -> std::convertible_to<int>;

@@ -30,8 +30,7 @@ struct QuinticSpline {
     const N a = math::max(N(3) - R, N(0));
     const N b = math::max(N(2) - R, N(0));
     const N c = math::max(N(1) - R, N(0));
-    return N(-5) *
-           (math::power<4>(a) - N(6) * math::power<4>(b) + N(15) * math::power<4>(c));
+    return N(-5) * (math::power<4>(a) - N(6) * math::power<4>(b) + N(15) * math::power<4>(c));
   }
 };
 

@@ -21,16 +21,20 @@ struct WendlandC2 {
   static SPHMBS_INLINE N shape(N R) {
     const N q = N(0.5) * R;
     const N a = math::max(N(1) - q, N(0));
-    if constexpr (Dim == 1) return math::power<3>(a) * (N(1) + N(3) * q);
-    else return math::power<4>(a) * (N(1) + N(4) * q);
+    if constexpr (Dim == 1)
+      return math::power<3>(a) * (N(1) + N(3) * q);
+    else
+      return math::power<4>(a) * (N(1) + N(4) * q);
   }
 
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N q = N(0.5) * R;
     const N a = math::max(N(1) - q, N(0));
-    if constexpr (Dim == 1) return N(-6) * q * math::power<2>(a);
-    else return N(-10) * q * math::power<3>(a);
+    if constexpr (Dim == 1)
+      return N(-6) * q * math::power<2>(a);
+    else
+      return N(-10) * q * math::power<3>(a);
   }
 };
 
@@ -47,16 +51,20 @@ struct WendlandC4 {
   static SPHMBS_INLINE N shape(N R) {
     const N q = N(0.5) * R;
     const N a = math::max(N(1) - q, N(0));
-    if constexpr (Dim == 1) return math::power<5>(a) * (N(1) + q * (N(5) + N(8) * q));
-    else return math::power<6>(a) * (N(1) + q * (N(6) + N(35.0 / 3) * q));
+    if constexpr (Dim == 1)
+      return math::power<5>(a) * (N(1) + q * (N(5) + N(8) * q));
+    else
+      return math::power<6>(a) * (N(1) + q * (N(6) + N(35.0 / 3) * q));
   }
 
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N q = N(0.5) * R;
     const N a = math::max(N(1) - q, N(0));
-    if constexpr (Dim == 1) return N(-7) * q * math::power<4>(a) * (N(1) + N(4) * q);
-    else return N(-28.0 / 3) * q * math::power<5>(a) * (N(1) + N(5) * q);
+    if constexpr (Dim == 1)
+      return N(-7) * q * math::power<4>(a) * (N(1) + N(4) * q);
+    else
+      return N(-28.0 / 3) * q * math::power<5>(a) * (N(1) + N(5) * q);
   }
 };
 
@@ -75,7 +83,8 @@ struct WendlandC6 {
     const N a = math::max(N(1) - q, N(0));
     if constexpr (Dim == 1)
       return math::power<7>(a) * (N(1) + q * (N(7) + q * (N(19) + N(21) * q)));
-    else return math::power<8>(a) * (N(1) + q * (N(8) + q * (N(25) + N(32) * q)));
+    else
+      return math::power<8>(a) * (N(1) + q * (N(8) + q * (N(25) + N(32) * q)));
   }
 
   template <class N>
@@ -84,7 +93,8 @@ struct WendlandC6 {
     const N a = math::max(N(1) - q, N(0));
     if constexpr (Dim == 1)
       return N(-3) * q * math::power<6>(a) * (N(3) + q * (N(18) + N(35) * q));
-    else return N(-11) * q * math::power<7>(a) * (N(1) + q * (N(7) + N(16) * q));
+    else
+      return N(-11) * q * math::power<7>(a) * (N(1) + q * (N(7) + N(16) * q));
   }
 };
 

@@ -13,8 +13,8 @@ class BruteForce {
  public:
   /// Lists the neighbours of each particle in ascending order; the particles stay where they are.
   /// @throws InvalidInput if a periodic axis is shorter than two reaches.
-  void rebuild(particles::Particles<Dim, T, Policy>& particles,
-               const geometry::Domain<Dim>& domain, const Reach& reach) {
+  void rebuild(particles::Particles<Dim, T, Policy>& particles, const geometry::Domain<Dim>& domain,
+               const Reach& reach) {
     check_reach(domain, reach);
     const std::size_t n = particles.size();
     std::vector<T> coordinate[Dim];
@@ -28,8 +28,8 @@ class BruteForce {
         Vec<Dim, T> d;
         for (int k = 0; k < Dim; ++k) d[k] = coordinate[k][b] - coordinate[k][a];
         d = space.nearest(d);
-        const T limit = static_cast<T>(reach.support / 2) * (h[a] + h[b]) +
-                        static_cast<T>(reach.skin);
+        const T limit =
+            static_cast<T>(reach.support / 2) * (h[a] + h[b]) + static_cast<T>(reach.skin);
         if (b != a && norm2(d) < limit * limit) list.push_back(static_cast<std::uint32_t>(b));
       }
       first.push_back(list.size());

@@ -53,8 +53,8 @@ struct CellGrid {
   template <execution::ExecutionPolicy Policy>
   static CellGrid around(particles::Particles<Dim, T, Policy>& particles,
                          const geometry::Domain<Dim>& domain, const Reach& reach) {
-    const auto bounds = execution::reduce<Policy>(
-        particles.size(), Bounds<Dim, T>{}, detail::PointBounds<Dim, T>{particles.fields()});
+    const auto bounds = execution::reduce<Policy>(particles.size(), Bounds<Dim, T>{},
+                                                  detail::PointBounds<Dim, T>{particles.fields()});
     const double most = std::max(1024.0, 2.0 * static_cast<double>(particles.size()));
     double side = reach.largest() / stencil;
     CellGrid grid;
@@ -62,11 +62,11 @@ struct CellGrid {
       double cells = 1;
       for (int k = 0; k < Dim; ++k) {
         const bool wraps = domain.periodic[static_cast<std::size_t>(k)];
-        const double length = wraps ? domain.box.length(k)
-                                    : static_cast<double>(bounds.upper[k]) -
-                                          static_cast<double>(bounds.lower[k]);
-        const double along = wraps ? std::max(1.0, std::floor(length / side))
-                                   : std::floor(length / side) + 1;
+        const double length =
+            wraps ? domain.box.length(k)
+                  : static_cast<double>(bounds.upper[k]) - static_cast<double>(bounds.lower[k]);
+        const double along =
+            wraps ? std::max(1.0, std::floor(length / side)) : std::floor(length / side) + 1;
         cells *= along;
         grid.lower[k] = wraps ? static_cast<T>(domain.box.lower[k]) : bounds.lower[k];
         grid.inverse_side[k] = static_cast<T>(wraps ? along / length : 1 / side);

@@ -55,17 +55,17 @@ struct SortCell {
 
 }  // namespace detail
 
-/// Cell-linked domain decomposition (sect. 4.3): particles are kept sorted by cells of half a reach,
-/// neighbours are found among the cells around and listed once for all evaluations until particles
-/// have moved by more than the skin. Each h may differ; any set of axes may be periodic.
+/// Cell-linked domain decomposition (sect. 4.3): particles are kept sorted by cells of half a
+/// reach, neighbours are found among the cells around and listed once for all evaluations until
+/// particles have moved by more than the skin. Each h may differ; any set of axes may be periodic.
 template <int Dim, class T, execution::ExecutionPolicy Policy>
 class CellList {
  public:
   /// Sorts the particles and lists the neighbours of each, in the order of the cells. The result
   /// does not depend on the number of threads.
   /// @throws InvalidInput if a periodic axis is shorter than two reaches.
-  void rebuild(particles::Particles<Dim, T, Policy>& particles,
-               const geometry::Domain<Dim>& domain, const Reach& reach) {
+  void rebuild(particles::Particles<Dim, T, Policy>& particles, const geometry::Domain<Dim>& domain,
+               const Reach& reach) {
     check_reach(domain, reach);
     const std::size_t n = particles.size();
     const auto grid = CellGrid<Dim, T>::around(particles, domain, reach);
@@ -107,8 +107,8 @@ class CellList {
     Policy::for_each(n, detail::CountCells<Dim, T>{fields, grid, count.data()});
     execution::exclusive_scan<Policy>(cells, count.data(), cell_first_.data());
     Policy::for_each(cells, detail::Zero{count.data()});
-    Policy::for_each(n, detail::PlaceInCells<Dim, T>{fields, grid, cell_first_.data(),
-                                                     count.data(), order});
+    Policy::for_each(
+        n, detail::PlaceInCells<Dim, T>{fields, grid, cell_first_.data(), count.data(), order});
     Policy::for_each(cells, detail::SortCell{cell_first_.data(), fields.id, order});
   }
 

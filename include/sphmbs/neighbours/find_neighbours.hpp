@@ -21,8 +21,10 @@ struct FindNeighbours {
   template <class Found>
   SPHMBS_INLINE void operator()(std::size_t a, Found&& found) const {
     const Vec<Dim, T> r = fields.position(a);
-    if (space.near_border(r, border)) walk<true>(a, r, found);
-    else walk<false>(a, r, found);
+    if (space.near_border(r, border))
+      walk<true>(a, r, found);
+    else
+      walk<false>(a, r, found);
   }
 
  private:
@@ -71,8 +73,10 @@ struct FindNeighbours {
   }
 
   static SPHMBS_INLINE N load(const T* p) {
-    if constexpr (W == 1) return *p;
-    else return N::load(p);
+    if constexpr (W == 1)
+      return *p;
+    else
+      return N::load(p);
   }
   static SPHMBS_INLINE unsigned truth(bool condition) { return condition ? 1u : 0u; }
   template <int lanes>

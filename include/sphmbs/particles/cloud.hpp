@@ -16,29 +16,29 @@ namespace sphmbs::particles {
 /// State of the gas at a point.
 template <int Dim>
 struct State {
-  double rho;          // density [kg/m^3]
-  double p;            // pressure [Pa]
-  Vec<Dim> v = {};     // velocity [m/s]
+  double rho;       // density [kg/m^3]
+  double p;         // pressure [Pa]
+  Vec<Dim> v = {};  // velocity [m/s]
 };
 
 /// Size of the particles of a lattice.
 struct Resolution {
-  double spacing;                // [m]
-  double smoothing_ratio = 1.25; // initial smoothing length / spacing, as in the paper [-]
+  double spacing;                 // [m]
+  double smoothing_ratio = 1.25;  // initial smoothing length / spacing, as in the paper [-]
 };
 
 /// The particles a simulation starts from, on the host, in the order they were added. Their index
 /// here is the particles' lasting `id`.
 template <int Dim>
 struct Cloud {
-  std::vector<Vec<Dim>> r;         // [m]
-  std::vector<Vec<Dim>> v;         // [m/s]
-  std::vector<double> rho;         // [kg/m^3]
-  std::vector<double> p;           // [Pa]
-  std::vector<double> h;           // [m]
-  std::vector<double> m;           // [kg]; planar [kg/m]
-  std::vector<std::uint8_t> set;   // gas, or the number of a set of virtual particles
-  int sets = 0;                    // sets of virtual particles so far
+  std::vector<Vec<Dim>> r;        // [m]
+  std::vector<Vec<Dim>> v;        // [m/s]
+  std::vector<double> rho;        // [kg/m^3]
+  std::vector<double> p;          // [Pa]
+  std::vector<double> h;          // [m]
+  std::vector<double> m;          // [kg]; planar [kg/m]
+  std::vector<std::uint8_t> set;  // gas, or the number of a set of virtual particles
+  int sets = 0;                   // sets of virtual particles so far
 
   std::size_t size() const { return r.size(); }
 

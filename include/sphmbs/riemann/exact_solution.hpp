@@ -65,10 +65,10 @@ class ExactSolution {
     const double c_right = sound(right_);
     const double power = (gamma_ - 1) / (2 * gamma_);
     // Two rarefactions: exact when both waves are, a good start otherwise.
-    double p = std::pow((c_left + c_right - 0.5 * (gamma_ - 1) * (right_.u - left_.u)) /
-                            (c_left / std::pow(left_.p, power) +
-                             c_right / std::pow(right_.p, power)),
-                        1 / power);
+    double p =
+        std::pow((c_left + c_right - 0.5 * (gamma_ - 1) * (right_.u - left_.u)) /
+                     (c_left / std::pow(left_.p, power) + c_right / std::pow(right_.p, power)),
+                 1 / power);
     for (int i = 0; i < 100; ++i) {
       const Star<double> a = jump(left_, p);
       const Star<double> b = jump(right_, p);
@@ -77,8 +77,7 @@ class ExactSolution {
       p = next;
       if (done) break;
     }
-    star_ = {.p = p,
-             .u = 0.5 * (left_.u + right_.u + jump(right_, p).p - jump(left_, p).p)};
+    star_ = {.p = p, .u = 0.5 * (left_.u + right_.u + jump(right_, p).p - jump(left_, p).p)};
   }
 
   // The flow on the side of state s; `sign` is -1 for the left side and 1 for the right one.
@@ -87,8 +86,8 @@ class ExactSolution {
     const double ratio = star_.p / s.p;
     const double g = (gamma_ - 1) / (gamma_ + 1);
     if (ratio > 1) {
-      const double mach = std::sqrt((gamma_ + 1) / (2 * gamma_) * ratio +
-                                    (gamma_ - 1) / (2 * gamma_));
+      const double mach =
+          std::sqrt((gamma_ + 1) / (2 * gamma_) * ratio + (gamma_ - 1) / (2 * gamma_));
       if (sign * (xi - s.u) > mach * c) return s;
       return {s.rho * (ratio + g) / (g * ratio + 1), star_.u, star_.p};
     }

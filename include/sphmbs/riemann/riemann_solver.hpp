@@ -30,7 +30,7 @@ struct Star {
 template <class R>
 concept RiemannSolver = std::is_trivially_copyable_v<R> &&
     requires(const R solver, State<double> left, State<double> right) {
-      { solver.star(left, right) } -> std::same_as<Star<double>>;
-    };
+  { solver.star(left, right) } -> std::same_as<Star<double>>;
+};
 
 }  // namespace sphmbs::riemann

@@ -44,10 +44,12 @@ std::string describe_culprit(particles::Particles<Dim, T, Policy>& particles, co
     for (int k = 0; k < Dim; ++k) text << (k > 0 ? ", " : "") << x[k];
     text << ")";
   };
-  text << what << " at step " << moment.step << ", t = " << moment.time
-       << " s (dt = " << moment.dt << " s): ";
-  if (set == particles::gas) text << "gas particle #" << id;
-  else text << "virtual particle #" << id << " of set " << set;
+  text << what << " at step " << moment.step << ", t = " << moment.time << " s (dt = " << moment.dt
+       << " s): ";
+  if (set == particles::gas)
+    text << "gas particle #" << id;
+  else
+    text << "virtual particle #" << id << " of set " << set;
   text << " at ";
   vector(s.r);
   text << " m, v = ";

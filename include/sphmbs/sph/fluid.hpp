@@ -38,8 +38,8 @@ class Fluid {
   /// Takes the cloud and gives its memory back: move it in where particles are many.
   /// @throws InvalidInput for an empty cloud, parameters out of range, or a periodic axis shorter
   ///         than two support radii.
-  Fluid(const Scheme& scheme, const geometry::Domain<dim>& domain,
-        particles::Cloud<dim> cloud, const Motion& motion = {}, Policy = {})
+  Fluid(const Scheme& scheme, const geometry::Domain<dim>& domain, particles::Cloud<dim> cloud,
+        const Motion& motion = {}, Policy = {})
       : scheme_(scheme),
         domain_(domain),
         motion_(motion),
@@ -134,10 +134,9 @@ class Fluid {
 
   /// The gas at a point, at the last stage.
   Sample<dim> sample(const Vec<dim>& x) {
-    return execution::reduce<Policy>(
-               size(), WeightedSum<dim>{},
-               WeighAtPoint<typename Scheme::Kernel, T>{particles_.records(), space_,
-                                                        x.template to<T>()})
+    return execution::reduce<Policy>(size(), WeightedSum<dim>{},
+                                     WeighAtPoint<typename Scheme::Kernel, T>{
+                                         particles_.records(), space_, x.template to<T>()})
         .sample();
   }
 
@@ -153,7 +152,7 @@ class Fluid {
 
  private:
   Advance<dim, T, Motion> advance(double scale, double dt) {
-    return {particles_.fields(),     particles_.rates(),      motion_,
+    return {particles_.fields(),   particles_.rates(),    motion_,
             static_cast<T>(scale), static_cast<T>(time_), static_cast<T>(dt)};
   }
 
@@ -161,8 +160,8 @@ class Fluid {
     const auto timer = statistics_.time(Phase::update);
     using Write = WriteRecords<Scheme, T, Motion>;
     culprit_.upload(std::array{Write::nobody});
-    Policy::for_each(size(), Write{advance(scale, dt), scheme_, particles_.records(),
-                                   culprit_.data()});
+    Policy::for_each(size(),
+                     Write{advance(scale, dt), scheme_, particles_.records(), culprit_.data()});
     const std::uint32_t culprit = culprit_.download()[0];
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
   }

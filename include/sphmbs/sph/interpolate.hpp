@@ -13,10 +13,10 @@ namespace sphmbs::sph {
 /// that a uniform field is met next to walls too. NaN throughout where no gas particle is seen.
 template <int Dim>
 struct Sample {
-  Vec<Dim> v;   // velocity [m/s]
-  double rho;   // density [kg/m^3]
-  double p;     // pressure [Pa]
-  int seen;     // gas particles whose support covers the point
+  Vec<Dim> v;  // velocity [m/s]
+  double rho;  // density [kg/m^3]
+  double p;    // pressure [Pa]
+  int seen;    // gas particles whose support covers the point
 };
 
 template <int Dim>
@@ -36,8 +36,7 @@ struct WeightedSum {
   }
 
   Sample<Dim> sample() const {
-    const double scale =
-        weight > 0 ? 1 / weight : std::numeric_limits<double>::quiet_NaN();
+    const double scale = weight > 0 ? 1 / weight : std::numeric_limits<double>::quiet_NaN();
     return {.v = scale * v, .rho = scale * rho, .p = scale * p, .seen = seen};
   }
 };

@@ -10,12 +10,12 @@ namespace sphmbs::sph {
 /// Sums over the neighbours of a particle, in number type N.
 template <int Dim, class N>
 struct PairSums {
-  N rho = N(0);                             // half of eq. (20)
-  N e = N(0);                               // eq. (22) and heat
-  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));   // eq. (21) and viscous stress
-  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));   // the sum of eq. (14), without its sign
-  N power = N(0);                           // of virtual particles on virtual particle a, by m_a
-  N pairs = N(0);                           // neighbours inside the support
+  N rho = N(0);                            // half of eq. (20)
+  N e = N(0);                              // eq. (22) and heat
+  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));  // eq. (21) and viscous stress
+  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));  // the sum of eq. (14), without its sign
+  N power = N(0);                          // of virtual particles on virtual particle a, by m_a
+  N pairs = N(0);                          // neighbours inside the support
 };
 
 /// The paper's page: what a neighbour b adds to the rates of particle a, eqs. (14) and (20)-(22).
@@ -55,8 +55,8 @@ struct PairTerm {
     const N scale = N(static_cast<T>(Kernel::normalisation)) * math::power<dim>(inverse_h) * b.m;
     const N mdW = scale * inverse_h * Kernel::slope(R);  // m_b / h dW/dR, not positive
     const N du = star.u - left.u;
-    const N push = mdW * star.p *
-                   (N(T(1)) / (left.rho * left.rho) + N(T(1)) / (right.rho * right.rho));
+    const N push =
+        mdW * star.p * (N(T(1)) / (left.rho * left.rho) + N(T(1)) / (right.rho * right.rho));
     const N load = N(T(1)) - N(a.shell) * b.shell;  // pairs of virtual particles carry no load
     sum.rho += mdW * du;
     sum.e += push * du;
@@ -66,8 +66,7 @@ struct PairTerm {
       sum.r += (scale * Kernel::shape(R) / (N(a.rho) + b.rho)) * (b.v - a.v);
     if constexpr (decltype(scheme.stress)::acts) {
       const auto transport = scheme.stress.pair(
-          scheme.eos, a, b,
-          PairGeometry<dim, N>{inverse_r * d, (N(T(0)) - mdW) * inverse_r / b.m});
+          scheme.eos, a, b, PairGeometry<dim, N>{inverse_r * d, (N(T(0)) - mdW) * inverse_r / b.m});
       sum.v += load * transport.v;
       sum.e += transport.e;
     }

@@ -57,14 +57,13 @@ struct EvaluateRates {
     PairSums<dim, Number<T, lanes>> sum;
     const std::uint32_t* b = neighbours.list + neighbours.first[i];
     const std::uint32_t* const end = neighbours.list + neighbours.first[i + 1];
-    for (; end - b >= lanes; b += lanes)
-      term(particles::load_records<dim, lanes>(records, b), sum);
+    for (; end - b >= lanes; b += lanes) term(particles::load_records<dim, lanes>(records, b), sum);
     T idle = 0;
     if (b != end) {
-      // The last pack is filled up with the particle itself, which adds nothing but one to the count.
+      // The last pack is filled up with the particle itself, which adds nothing but one to the
+      // count.
       std::uint32_t rest[lanes];
-      for (int l = 0; l < lanes; ++l)
-        rest[l] = l < end - b ? b[l] : static_cast<std::uint32_t>(i);
+      for (int l = 0; l < lanes; ++l) rest[l] = l < end - b ? b[l] : static_cast<std::uint32_t>(i);
       idle = static_cast<T>(lanes - (end - b));
       term(particles::load_records<dim, lanes>(records, rest), sum);
     }

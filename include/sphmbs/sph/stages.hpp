@@ -55,9 +55,9 @@ struct Advance {
   }
 };
 
-/// Writes the records of a stage (predicted state, pressure and sound speed) and notes the lowest id
-/// among particles whose state is not finite or not physical: density, smoothing length and squared
-/// sound speed are positive. Checked here, before such a state spreads to the neighbours.
+/// Writes the records of a stage (predicted state, pressure and sound speed) and notes the lowest
+/// id among particles whose state is not finite or not physical: density, smoothing length and
+/// squared sound speed are positive. Checked here, before such a state spreads to the neighbours.
 template <class Scheme, class T, class Motion>
 struct WriteRecords {
   static constexpr int dim = Scheme::dim;

@@ -41,13 +41,13 @@ struct Inviscid {
 ///   de_a/dt += half the work of that force, never negative, - sum m_b F / (rho_a rho_b) 2 k T_ab
 ///
 /// in the limit of many neighbours rho dv/dt = mu lap v + (zeta + mu/3) grad div v, with the bulk
-/// viscosity zeta. Virtual particles act as no-slip walls of their own temperature. Angular momentum
-/// is conserved by the second term alone.
+/// viscosity zeta. Virtual particles act as no-slip walls of their own temperature. Angular
+/// momentum is conserved by the second term alone.
 struct Newtonian {
   static constexpr bool acts = true;
-  double viscosity;         // mu [Pa s]
-  double conductivity = 0;  // k [W/(m K)]
-  double bulk = 0;          // zeta [Pa s]
+  double viscosity;             // mu [Pa s]
+  double conductivity = 0;      // k [W/(m K)]
+  double bulk = 0;              // zeta [Pa s]
   double heat_capacity = 1005;  // at constant pressure, for the step limit only [J/(kg K)]
 
   /// Contribution of b to a.

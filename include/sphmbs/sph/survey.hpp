@@ -26,15 +26,15 @@ template <int Dim>
 struct Survey {
   Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
-  double h_rate = 0;          // largest rate of change of h [m/s]
-  std::uint64_t pairs = 0;    // ordered pairs inside the support
-  Vec<Dim> wall_force = {};   // of the gas on all virtual particles [N]
-  double wall_power = 0;      // of the gas on virtual particles, sum f.v [W]
-  double layer_power = 0;     // of virtual particles on each other [W]
-  Vec<Dim> momentum = {};     // of the gas at this stage [kg m/s]
-  Limit courant;              // h / (c + h |div v|)
-  Limit acceleration;         // sqrt(h / |a|)
-  Limit diffusion;            // h^2 / (2 nu)
+  double h_rate = 0;         // largest rate of change of h [m/s]
+  std::uint64_t pairs = 0;   // ordered pairs inside the support
+  Vec<Dim> wall_force = {};  // of the gas on all virtual particles [N]
+  double wall_power = 0;     // of the gas on virtual particles, sum f.v [W]
+  double layer_power = 0;    // of virtual particles on each other [W]
+  Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
+  Limit courant;             // h / (c + h |div v|)
+  Limit acceleration;        // sqrt(h / |a|)
+  Limit diffusion;           // h^2 / (2 nu)
 
   SPHMBS_INLINE void combine(const Survey& o) {
     for (int k = 0; k < Dim; ++k) {

@@ -29,7 +29,9 @@ struct NoSystem {
 /// beginning of the step are known; it is returned [s].
 template <class I, class S = NoSystem>
 concept TimeIntegrator = ExplicitSystem<S> && requires(const I integrator, S& system) {
-  { integrator.step(system, [] { return 1.0; }) } -> std::same_as<double>;
+  {
+    integrator.step(system, [] { return 1.0; })
+    } -> std::same_as<double>;
 };
 
 }  // namespace sphmbs::time

@@ -59,7 +59,7 @@ std::vector<double> numbers(const std::string& line) {
 TEST_CASE("a csv file starts with comment and header", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "probes.csv";
-  sphmbs::CsvWriter csv(path, "two probes", {{"t", "s"}, {"speed_A", "m/s"}, {"steps", ""}});
+  sphmbs::io::CsvWriter csv(path, "two probes", {{"t", "s"}, {"speed_A", "m/s"}, {"steps", ""}});
   CHECK(lines(path) == std::vector<std::string>{"# two probes", "t[s],speed_A[m/s],steps"});
   csv.row({0.0, 0.5, 3.0});
   csv.flush();
@@ -87,7 +87,7 @@ TEST_CASE("csv numbers are read back as the same doubles", "[io]") {
 
   const Directory directory;
   const std::filesystem::path path = directory.path / "extreme.csv";
-  sphmbs::CsvWriter csv(path, "", {{"a", "1"}, {"b", "1"}});
+  sphmbs::io::CsvWriter csv(path, "", {{"a", "1"}, {"b", "1"}});
   for (const double value : values) csv.row(std::vector<double>{value, -value});
   csv.flush();
 
@@ -111,7 +111,7 @@ TEST_CASE("csv writes nan without sign, in every locale a point", "[io]") {
   const std::filesystem::path path = directory.path / "nan.csv";
   // Absent locales leave the classic one, and the test then only covers NaN.
   std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-  sphmbs::CsvWriter csv(path, "", {{"a", "s"}, {"b", "s"}, {"c", "s"}});
+  sphmbs::io::CsvWriter csv(path, "", {{"a", "s"}, {"b", "s"}, {"c", "s"}});
   csv.row({std::nan(""), -std::nan(""), 0.5});
   csv.flush();
   std::setlocale(LC_NUMERIC, "C");
@@ -121,25 +121,25 @@ TEST_CASE("csv writes nan without sign, in every locale a point", "[io]") {
 TEST_CASE("csv refuses rows of the wrong length and ambiguous heads", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "wrong.csv";
-  sphmbs::CsvWriter csv(path, "", {{"a", "s"}, {"b", "s"}});
+  sphmbs::io::CsvWriter csv(path, "", {{"a", "s"}, {"b", "s"}});
   CHECK_THROWS_AS(csv.row({1.0}), std::invalid_argument);
   CHECK_THROWS_AS(csv.row({1.0, 2.0, 3.0}), std::invalid_argument);
   csv.flush();
   CHECK(lines(path).size() == 2);
 
-  using Columns = std::vector<sphmbs::CsvWriter::Column>;
+  using Columns = std::vector<sphmbs::io::CsvWriter::Column>;
   const std::filesystem::path other = directory.path / "other.csv";
-  CHECK_THROWS_AS(sphmbs::CsvWriter(other, "", Columns{}), std::invalid_argument);
-  CHECK_THROWS_AS(sphmbs::CsvWriter(other, "a\nb", Columns{{"a", "s"}}), std::invalid_argument);
-  CHECK_THROWS_AS(sphmbs::CsvWriter(other, "", Columns{{"a,b", "s"}}), std::invalid_argument);
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(other, "", Columns{}), std::invalid_argument);
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(other, "a\nb", Columns{{"a", "s"}}), std::invalid_argument);
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(other, "", Columns{{"a,b", "s"}}), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(other));
 }
 
 TEST_CASE("csv reports a missing directory and a full device", "[io]") {
-  using Columns = std::vector<sphmbs::CsvWriter::Column>;
+  using Columns = std::vector<sphmbs::io::CsvWriter::Column>;
   const Directory directory;
-  CHECK_THROWS_AS(sphmbs::CsvWriter(directory.path / "missing" / "a.csv", "", Columns{{"a", "s"}}),
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(directory.path / "missing" / "a.csv", "", Columns{{"a", "s"}}),
                   sphmbs::OutputError);
   if (!std::filesystem::exists("/dev/full")) return;
-  CHECK_THROWS_AS(sphmbs::CsvWriter("/dev/full", "", Columns{{"a", "s"}}), sphmbs::OutputError);
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter("/dev/full", "", Columns{{"a", "s"}}), sphmbs::OutputError);
 }

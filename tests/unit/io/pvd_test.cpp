@@ -53,7 +53,7 @@ Entries entries(const std::filesystem::path& path) {
 TEST_CASE("a pvd list is valid after each addition", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "run.pvd";
-  sphmbs::PvdCollection collection(path);
+  sphmbs::io::PvdCollection collection(path);
   CHECK(entries(path).empty());
 
   Entries expected;
@@ -68,20 +68,20 @@ TEST_CASE("a pvd list is valid after each addition", "[io]") {
 TEST_CASE("a new pvd list replaces an earlier one", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "run.pvd";
-  sphmbs::PvdCollection(path).add(1.0, "old.vtp");
-  sphmbs::PvdCollection(path).add(2.0, "a&b.vtp");
+  sphmbs::io::PvdCollection(path).add(1.0, "old.vtp");
+  sphmbs::io::PvdCollection(path).add(2.0, "a&b.vtp");
   CHECK(entries(path) == Entries{{2.0, "a&amp;b.vtp"}});
 }
 
 TEST_CASE("a pvd list refuses times that are not finite", "[io]") {
   const Directory directory;
-  sphmbs::PvdCollection collection(directory.path / "run.pvd");
+  sphmbs::io::PvdCollection collection(directory.path / "run.pvd");
   CHECK_THROWS_AS(collection.add(std::nan(""), "a.vtp"), std::invalid_argument);
   CHECK(entries(directory.path / "run.pvd").empty());
 }
 
 TEST_CASE("a pvd list that cannot be written is reported at once", "[io]") {
   const Directory directory;
-  CHECK_THROWS_AS(sphmbs::PvdCollection(directory.path / "missing" / "run.pvd"),
+  CHECK_THROWS_AS(sphmbs::io::PvdCollection(directory.path / "missing" / "run.pvd"),
                   sphmbs::OutputError);
 }

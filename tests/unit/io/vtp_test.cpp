@@ -99,18 +99,18 @@ TEST_CASE("a vtp file holds points, arrays and time bit for bit", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "state.vtp";
   const std::vector<std::array<double, 2>> positions{{0.1, -0.0}, {1e-310, 2.0}, {3.0, 1e300}};
-  const std::vector<double> points = sphmbs::points_xyz<2>(positions);
+  const std::vector<double> points = sphmbs::io::points_xyz<2>(positions);
   const std::vector<double> pressure{101325.0, std::nan(""),
                                      std::numeric_limits<double>::infinity()};
   const std::vector<float> velocity{1.0F, 2.0F, 0.0F, -3.5F, 4.0F, 0.0F, 5.0F, 6.0F, 0.0F};
   const std::vector<std::int32_t> body{-1, 0, std::numeric_limits<std::int32_t>::max()};
   const std::vector<std::uint8_t> kind{0, 127, 255};
-  const std::vector<sphmbs::PointArray> arrays{
+  const std::vector<sphmbs::io::PointArray> arrays{
       {.name = "p [Pa]", .values = pressure},
       {.name = "velocity", .components = 3, .values = velocity},
       {.name = "body", .values = body},
       {.name = "kind", .values = kind}};
-  sphmbs::write_vtp(path, points, arrays, 0.1);
+  sphmbs::io::write_vtp(path, points, arrays, 0.1);
 
   const std::string file = content(path);
   CHECK(file.starts_with("<?xml version=\"1.0\"?>"));
@@ -153,7 +153,7 @@ TEST_CASE("a vtp file holds points, arrays and time bit for bit", "[io]") {
 
 TEST_CASE("a vtp file without particles is complete", "[io]") {
   const Directory directory;
-  sphmbs::write_vtp(directory.path / "empty.vtp", {}, {}, 2.0);
+  sphmbs::io::write_vtp(directory.path / "empty.vtp", {}, {}, 2.0);
   const std::string file = content(directory.path / "empty.vtp");
   CHECK(attribute(tag(file, "<Piece"), "NumberOfPoints") == "0");
   CHECK(block(file, "Points").bytes.empty());
@@ -162,36 +162,36 @@ TEST_CASE("a vtp file without particles is complete", "[io]") {
 
 TEST_CASE("names in a vtp file are escaped", "[io]") {
   const Directory directory;
-  const std::vector<sphmbs::PointArray> arrays{
+  const std::vector<sphmbs::io::PointArray> arrays{
       {.name = "a<b> & \"c'", .values = std::vector<double>{1.0}}};
-  sphmbs::write_vtp(directory.path / "names.vtp", std::vector<double>{0.0, 0.0, 0.0}, arrays, 0.0);
+  sphmbs::io::write_vtp(directory.path / "names.vtp", std::vector<double>{0.0, 0.0, 0.0}, arrays, 0.0);
   CHECK(contains(content(directory.path / "names.vtp"), "Name=\"a&lt;b&gt; &amp; &quot;c&apos;\""));
 }
 
 TEST_CASE("points are padded to three components", "[io]") {
-  CHECK(sphmbs::points_xyz<1>(std::vector<std::array<double, 1>>{{4.0}, {5.0}}) ==
+  CHECK(sphmbs::io::points_xyz<1>(std::vector<std::array<double, 1>>{{4.0}, {5.0}}) ==
         std::vector<double>{4.0, 0.0, 0.0, 5.0, 0.0, 0.0});
-  CHECK(sphmbs::points_xyz<3>(std::vector<std::array<double, 3>>{{1.0, 2.0, 3.0}}) ==
+  CHECK(sphmbs::io::points_xyz<3>(std::vector<std::array<double, 3>>{{1.0, 2.0, 3.0}}) ==
         std::vector<double>{1.0, 2.0, 3.0});
   const std::vector<double> x{1.0, 2.0};
   const std::vector<double> y{3.0, 4.0};
-  CHECK(sphmbs::points_xyz(x, y) == std::vector<double>{1.0, 3.0, 0.0, 2.0, 4.0, 0.0});
-  CHECK_THROWS_AS(sphmbs::points_xyz(x, std::vector<double>{3.0}), std::invalid_argument);
+  CHECK(sphmbs::io::points_xyz(x, y) == std::vector<double>{1.0, 3.0, 0.0, 2.0, 4.0, 0.0});
+  CHECK_THROWS_AS(sphmbs::io::points_xyz(x, std::vector<double>{3.0}), std::invalid_argument);
 }
 
 TEST_CASE("write_vtp refuses arrays of the wrong length", "[io]") {
   const Directory directory;
   const std::filesystem::path path = directory.path / "wrong.vtp";
   const std::vector<double> points(6, 0.0);
-  const std::vector<sphmbs::PointArray> arrays{
+  const std::vector<sphmbs::io::PointArray> arrays{
       {.name = "velocity", .components = 3, .values = std::vector<float>(5)}};
   const std::string message =
-      message_of<std::invalid_argument>([&] { sphmbs::write_vtp(path, points, arrays, 0.0); });
+      message_of<std::invalid_argument>([&] { sphmbs::io::write_vtp(path, points, arrays, 0.0); });
   CHECK(contains(message, "\"velocity\" has 5 values, expected 6"));
 
-  const std::vector<sphmbs::PointArray> no_components{{.name = "p", .components = 0}};
-  CHECK_THROWS_AS(sphmbs::write_vtp(path, points, no_components, 0.0), std::invalid_argument);
-  CHECK_THROWS_AS(sphmbs::write_vtp(path, std::vector<double>(4), {}, 0.0), std::invalid_argument);
+  const std::vector<sphmbs::io::PointArray> no_components{{.name = "p", .components = 0}};
+  CHECK_THROWS_AS(sphmbs::io::write_vtp(path, points, no_components, 0.0), std::invalid_argument);
+  CHECK_THROWS_AS(sphmbs::io::write_vtp(path, std::vector<double>(4), {}, 0.0), std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(path));
 }
 
@@ -199,22 +199,22 @@ TEST_CASE("write_vtp reports path and reason and keeps the earlier file", "[io]"
   const Directory directory;
   const std::filesystem::path missing = directory.path / "missing" / "state.vtp";
   const std::string message =
-      message_of<sphmbs::OutputError>([&] { sphmbs::write_vtp(missing, {}, {}, 0.0); });
+      message_of<sphmbs::OutputError>([&] { sphmbs::io::write_vtp(missing, {}, {}, 0.0); });
   CHECK(contains(message, missing.string()));
   CHECK(contains(message, "No such file or directory"));
 
   const std::filesystem::path occupied = directory.path / "occupied.vtp";
   std::filesystem::create_directories(occupied / "inside");
-  CHECK_THROWS_AS(sphmbs::write_vtp(occupied, {}, {}, 0.0), sphmbs::OutputError);
+  CHECK_THROWS_AS(sphmbs::io::write_vtp(occupied, {}, {}, 0.0), sphmbs::OutputError);
   CHECK_FALSE(std::filesystem::exists(directory.path / "occupied.vtp.tmp"));
 
   if (!std::filesystem::exists("/dev/full")) return;
   const std::filesystem::path state = directory.path / "state.vtp";
-  sphmbs::write_vtp(state, {}, {}, 1.0);
+  sphmbs::io::write_vtp(state, {}, {}, 1.0);
   const std::string before = content(state);
   std::filesystem::create_symlink("/dev/full", directory.path / "state.vtp.tmp");
   const std::string full = message_of<sphmbs::OutputError>(
-      [&] { sphmbs::write_vtp(state, std::vector<double>(30000, 1.0), {}, 2.0); });
+      [&] { sphmbs::io::write_vtp(state, std::vector<double>(30000, 1.0), {}, 2.0); });
   CHECK(contains(full, state.string()));
   CHECK(contains(full, "No space left on device"));
   CHECK(content(state) == before);
