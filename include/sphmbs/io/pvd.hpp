@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <sphmbs/io/replace_file.hpp>
+#include <sphmbs/io/xml.hpp>
 
 namespace sphmbs::io {
 

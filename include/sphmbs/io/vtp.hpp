@@ -18,6 +18,7 @@
 
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/io/replace_file.hpp>
+#include <sphmbs/io/xml.hpp>
 
 namespace sphmbs::io {
 
@@ -35,34 +36,6 @@ struct PointArray {
 };
 
 namespace detail {
-
-/// Text with the five characters that are markup in XML replaced by their entities.
-inline std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&apos;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// Data of one .vtp file in the "appended raw" form: each block is its length in bytes as UInt64,
 /// then its bytes. Keeps views only; the values must outlive it.
