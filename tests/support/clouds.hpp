@@ -16,8 +16,8 @@ namespace test {
 /// The box from 0 to `side` along every axis, periodic along all of them or none.
 template <int Dim>
 sphmbs::geometry::Domain<Dim> cube(double side, bool periodic) {
-  sphmbs::geometry::Domain<Dim> domain{
-      {sphmbs::Vec<Dim>::all(0.0), sphmbs::Vec<Dim>::all(side)}, {}};
+  sphmbs::geometry::Domain<Dim> domain{{sphmbs::Vec<Dim>::all(0.0), sphmbs::Vec<Dim>::all(side)},
+                                       {}};
   domain.periodic.fill(periodic);
   return domain;
 }
@@ -80,8 +80,8 @@ constexpr sphmbs::particles::State<Dim> still_air() {
   return {.rho = 1.2, .p = 1e5, .v = {}};
 }
 
-/// A cube of air whose particles differ in everything: place, velocity, density, pressure, smoothing
-/// length and mass.
+/// A cube of air whose particles differ in everything: place, velocity, density, pressure,
+/// smoothing length and mass.
 template <int Dim>
 sphmbs::particles::Cloud<Dim> disordered_cloud(int per_side, double spacing, std::uint64_t seed,
                                                const Disorder& disorder = {}) {
@@ -92,6 +92,8 @@ sphmbs::particles::Cloud<Dim> disordered_cloud(int per_side, double spacing, std
 
 /// Particles along each side that make a cloud of some hundreds.
 template <int Dim>
-inline constexpr int some_hundreds = Dim == 1 ? 200 : Dim == 2 ? 18 : 9;
+inline constexpr int some_hundreds = Dim == 1   ? 200
+                                     : Dim == 2 ? 18
+                                                : 9;
 
 }  // namespace test

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <sphmbs/execution/serial.hpp>
-#include <sphmbs/riemann/acoustic.hpp>
 #include <sphmbs/eos/ideal_gas.hpp>
+#include <sphmbs/execution/serial.hpp>
 #include <sphmbs/kernels/quintic_spline.hpp>
+#include <sphmbs/riemann/acoustic.hpp>
 #include <sphmbs/sph/fluid.hpp>
 
 namespace test {

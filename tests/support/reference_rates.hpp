@@ -40,15 +40,13 @@ struct PrintedQuintic {
     return Dim == 1 ? 1.0 / 120 : Dim == 2 ? 7 / (478 * pi) : 1 / (120 * pi);
   }
   static double value(double R) {
-    if (R < 1)
-      return std::pow(3 - R, 5) - 6 * std::pow(2 - R, 5) + 15 * std::pow(1 - R, 5);
+    if (R < 1) return std::pow(3 - R, 5) - 6 * std::pow(2 - R, 5) + 15 * std::pow(1 - R, 5);
     if (R < 2) return std::pow(3 - R, 5) - 6 * std::pow(2 - R, 5);
     if (R < 3) return std::pow(3 - R, 5);
     return 0;
   }
   static double derivative(double R) {
-    if (R < 1)
-      return -5 * std::pow(3 - R, 4) + 30 * std::pow(2 - R, 4) - 75 * std::pow(1 - R, 4);
+    if (R < 1) return -5 * std::pow(3 - R, 4) + 30 * std::pow(2 - R, 4) - 75 * std::pow(1 - R, 4);
     if (R < 2) return -5 * std::pow(3 - R, 4) + 30 * std::pow(2 - R, 4);
     if (R < 3) return -5 * std::pow(3 - R, 4);
     return 0;
@@ -107,15 +105,12 @@ ReferenceRates<Dim> reference_rates(const ReferenceGas& gas,
       const double za = cloud.rho[a] * c[a];
       const double zb = cloud.rho[b] * c[b];
       const double p_star =
-          (zb * cloud.p[a] + za * cloud.p[b] - za * zb * (vb - va)) / (za + zb);  // eq. (16)
-      const double v_star =
-          (za * va + zb * vb + cloud.p[a] - cloud.p[b]) / (za + zb);  // eq. (19)
-      const double v_size =
-          std::abs(va) + std::abs(vb) + (cloud.p[a] + cloud.p[b]) / (za + zb);
+          (zb * cloud.p[a] + za * cloud.p[b] - za * zb * (vb - va)) / (za + zb);        // eq. (16)
+      const double v_star = (za * va + zb * vb + cloud.p[a] - cloud.p[b]) / (za + zb);  // eq. (19)
+      const double v_size = std::abs(va) + std::abs(vb) + (cloud.p[a] + cloud.p[b]) / (za + zb);
       const double mass_slope = cloud.m[b] / h * dW;
-      const double push =
-          mass_slope * p_star *
-          (1 / (cloud.rho[a] * cloud.rho[a]) + 1 / (cloud.rho[b] * cloud.rho[b]));
+      const double push = mass_slope * p_star *
+                          (1 / (cloud.rho[a] * cloud.rho[a]) + 1 / (cloud.rho[b] * cloud.rho[b]));
       drho += 2 * mass_slope * (v_star - va);  // eq. (20)
       drho_size += 2 * std::abs(mass_slope) * v_size;
       de += push * (v_star - va);  // eq. (22)

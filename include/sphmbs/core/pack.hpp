@@ -59,7 +59,11 @@ struct Mask {
       return static_cast<unsigned>(_mm256_movemask_pd((__m256d)v));
 #endif
     unsigned b = 0;
-    for (int l = 0; l < W; ++l) b |= (v[l] != 0 ? 1u : 0u) << l;
+    for (int l = 0; l < W; ++l) {
+      // In one expression, GCC 12's undefined-behaviour sanitizer reads lane l before l is set.
+      const unsigned set = v[l] != 0 ? 1u : 0u;
+      b |= set << l;
+    }
     return b;
   }
 };

@@ -69,6 +69,16 @@ struct Domain {
     return p;
   }
 
+  /// The image inside the box of a point, from however many periods away.
+  Vec<Dim> wrapped(Vec<Dim> r) const {
+    for (int k = 0; k < Dim; ++k) {
+      if (!periodic[static_cast<std::size_t>(k)]) continue;
+      if (r[k] < box.lower[k] || r[k] >= box.upper[k])
+        r[k] -= box.length(k) * std::floor((r[k] - box.lower[k]) / box.length(k));
+    }
+    return r;
+  }
+
   /// @throws InvalidInput if the box is empty or not finite.
   void check() const {
     for (int k = 0; k < Dim; ++k)

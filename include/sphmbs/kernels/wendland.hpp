@@ -54,7 +54,7 @@ struct WendlandC4 {
     if constexpr (Dim == 1)
       return math::power<5>(a) * (N(1) + q * (N(5) + N(8) * q));
     else
-      return math::power<6>(a) * (N(1) + q * (N(6) + N(35.0 / 3) * q));
+      return math::power<6>(a) * (N(1) + q * (N(6) + N(static_cast<Scalar<N>>(35.0 / 3)) * q));
   }
 
   template <class N>
@@ -64,7 +64,7 @@ struct WendlandC4 {
     if constexpr (Dim == 1)
       return N(-7) * q * math::power<4>(a) * (N(1) + N(4) * q);
     else
-      return N(-28.0 / 3) * q * math::power<5>(a) * (N(1) + N(5) * q);
+      return N(static_cast<Scalar<N>>(-28.0 / 3)) * q * math::power<5>(a) * (N(1) + N(5) * q);
   }
 };
 

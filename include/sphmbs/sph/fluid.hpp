@@ -44,7 +44,8 @@ class Fluid {
         domain_(domain),
         motion_(motion),
         space_(domain.template periodicity<T>()),
-        particles_(cloud, [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
+        particles_(wrapped(cloud, domain),
+                   [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
         gas_count_(cloud.gas_count()) {
     scheme.check();
     domain.check();
@@ -151,6 +152,13 @@ class Fluid {
   std::size_t bytes() { return particles_.bytes() + search_.bytes(); }
 
  private:
+  // Cells and nearest images take particles to be in the periodic box.
+  static const particles::Cloud<dim>& wrapped(particles::Cloud<dim>& cloud,
+                                              const geometry::Domain<dim>& domain) {
+    for (Vec<dim>& r : cloud.r) r = domain.wrapped(r);
+    return cloud;
+  }
+
   Advance<dim, T, Motion> advance(double scale, double dt) {
     return {particles_.fields(),   particles_.rates(),    motion_,
             static_cast<T>(scale), static_cast<T>(time_), static_cast<T>(dt)};

@@ -102,7 +102,7 @@ struct SurveyParticle {
 /// The length of the next step and why it is no longer.
 struct StepLimit {
   double dt;                // [s]
-  std::string_view reason;  // "sound", "acceleration", "diffusion", "fixed" or "output"
+  std::string_view reason;  // "sound", "acceleration", "diffusion" or "fixed"
   std::uint32_t id;         // of the particle that limits; 0 where none does
 };
 

@@ -16,10 +16,9 @@ namespace {
 using namespace sphmbs::kernels;
 
 using Kernels =
-    std::tuple<QuinticSpline<1>, QuinticSpline<2>, QuinticSpline<3>, CubicSpline<1>,
-               CubicSpline<2>, CubicSpline<3>, WendlandC2<1>, WendlandC2<2>, WendlandC2<3>,
-               WendlandC4<1>, WendlandC4<2>, WendlandC4<3>, WendlandC6<1>, WendlandC6<2>,
-               WendlandC6<3>>;
+    std::tuple<QuinticSpline<1>, QuinticSpline<2>, QuinticSpline<3>, CubicSpline<1>, CubicSpline<2>,
+               CubicSpline<3>, WendlandC2<1>, WendlandC2<2>, WendlandC2<3>, WendlandC4<1>,
+               WendlandC4<2>, WendlandC4<3>, WendlandC6<1>, WendlandC6<2>, WendlandC6<3>>;
 
 // Pieces are polynomials of degree 11 at most, so the quadrature is exact but for rounding.
 constexpr double rounding = 1e-12;
@@ -75,8 +74,7 @@ TEMPLATE_LIST_TEST_CASE("the slope is the derivative of the shape", "[kernels]",
   using K = TestType;
   for (double R = 0; R < K::support; R += 0.0625) {
     CAPTURE(R);
-    const double integral =
-        integral_to_support<K>(R, [](double x) { return K::slope(x); });
+    const double integral = integral_to_support<K>(R, [](double x) { return K::slope(x); });
     CHECK(std::abs(integral + K::shape(R)) < rounding * K::shape(0.0));
   }
 }
@@ -91,8 +89,7 @@ TEMPLATE_LIST_TEST_CASE("a smoothing function and its slope vanish from the supp
   CHECK(K::shape(K::support * (1 - 1e-3)) > 0);
 }
 
-TEMPLATE_LIST_TEST_CASE("a smoothing function falls from its peak to zero", "[kernels]",
-                        Kernels) {
+TEMPLATE_LIST_TEST_CASE("a smoothing function falls from its peak to zero", "[kernels]", Kernels) {
   using K = TestType;
   CHECK(std::abs(K::slope(0.0)) < rounding * K::shape(0.0));
   const double last = 0.99 * K::support;
@@ -152,9 +149,12 @@ TEST_CASE("the quintic spline has the pieces of eq. 10", "[kernels]") {
 TEST_CASE("the quintic spline's second moments are those of its constants", "[kernels]") {
   const auto moment = []<int Dim>(std::integral_constant<int, Dim>) {
     using K = QuinticSpline<Dim>;
-    return integral_to_support<K>(0, [](double R) {
-             return sphere<K> * std::pow(R, Dim + 1) * K::normalisation * K::shape(R);
-           }) / Dim;
+    return integral_to_support<K>(0,
+                                  [](double R) {
+                                    return sphere<K> * std::pow(R, Dim + 1) * K::normalisation *
+                                           K::shape(R);
+                                  }) /
+           Dim;
   };
   CHECK(std::abs(moment(std::integral_constant<int, 1>{}) - 1.0 / 2) < rounding);
   CHECK(std::abs(moment(std::integral_constant<int, 2>{}) - 2771.0 / 5736) < rounding);
@@ -170,23 +170,22 @@ TEST_CASE("sums of the quintic spline over a lattice are known", "[kernels]") {
     double centre[3];
     double edge[3];
   };
-  const Row rows[] = {
-      {1.00,
-       {0, 6.322459462282e-05, -2.004033834768e-05},
-       {0, 1.451181181091e-04, -6.746071478092e-05},
-       {0, -1.057128969275e-04, -1.757479112108e-05}},
-      {1.25,
-       {7.68e-05, -7.568094783783e-05, -8.876358835896e-05},
-       {-5.973333333331e-05, 1.060703102329e-04, 1.425136791395e-04},
-       {-5.973333333331e-05, -3.963618766645e-06, -4.424815468029e-05}},
-      {1.50,
-       {1.828989483315e-04, 1.551239444118e-04, 7.671705133894e-05},
-       {-1.828989483316e-04, -1.589436248953e-04, -7.588900355648e-05},
-       {-1.828989483316e-04, 1.605373927571e-06, 2.083791061258e-05}},
-      {2.00,
-       {0, -7.707702804893e-07, 2.445815441288e-07},
-       {0, 8.656039949262e-07, 3.024340247126e-07},
-       {0, -4.796330621559e-08, -5.721926021884e-08}}};
+  const Row rows[] = {{1.00,
+                       {0, 6.322459462282e-05, -2.004033834768e-05},
+                       {0, 1.451181181091e-04, -6.746071478092e-05},
+                       {0, -1.057128969275e-04, -1.757479112108e-05}},
+                      {1.25,
+                       {7.68e-05, -7.568094783783e-05, -8.876358835896e-05},
+                       {-5.973333333331e-05, 1.060703102329e-04, 1.425136791395e-04},
+                       {-5.973333333331e-05, -3.963618766645e-06, -4.424815468029e-05}},
+                      {1.50,
+                       {1.828989483315e-04, 1.551239444118e-04, 7.671705133894e-05},
+                       {-1.828989483316e-04, -1.589436248953e-04, -7.588900355648e-05},
+                       {-1.828989483316e-04, 1.605373927571e-06, 2.083791061258e-05}},
+                      {2.00,
+                       {0, -7.707702804893e-07, 2.445815441288e-07},
+                       {0, 8.656039949262e-07, 3.024340247126e-07},
+                       {0, -4.796330621559e-08, -5.721926021884e-08}}};
   for (const Row& row : rows) {
     CAPTURE(row.ratio);
     const auto check = [&](const double(&expected)[3], const double(&place)[3]) {

@@ -174,7 +174,8 @@ TEMPLATE_LIST_TEST_CASE("particles on the borders of cells and of the domain are
       for (auto& r : cloud.r) r = r - sphmbs::Vec<Dim>::all(spacing / 2);  // on the lower border
       const auto domain = test::cube<Dim>(per_side * spacing, periodic);
       check_same<TestType>(cloud, domain);
-      // Half a reach, the side of the cells, is a whole number of spacings; no pair is at the reach.
+      // Half a reach, the side of the cells, is a whole number of spacings; no pair is at the
+      // reach.
       for (double& h : cloud.h) h = spacing * 4 / 3;
       check_same<TestType>(cloud, domain, 0, 2.999);
       check_same<TestType>(cloud, domain, 0, 3.001);
@@ -191,8 +192,8 @@ TEMPLATE_LIST_TEST_CASE("particles on both periodic borders are neighbours at on
                        test::cube<2>(1, true));
 }
 
-TEMPLATE_LIST_TEST_CASE("walls outside a box that is not periodic are neighbours",
-                        "[neighbours]", test::Policies) {
+TEMPLATE_LIST_TEST_CASE("walls outside a box that is not periodic are neighbours", "[neighbours]",
+                        test::Policies) {
   auto [cloud, domain] = random_case<2>(1, 130);
   test::Random random(131);
   for (std::size_t i = 0; i < cloud.size(); i += 3)
@@ -260,8 +261,10 @@ TEMPLATE_LIST_TEST_CASE("a large particle among small ones is seen by all it rea
 
 TEST_CASE("lists are in the same order for any number of threads", "[neighbours]") {
   const auto check = []<int Dim>(std::integral_constant<int, Dim>) {
-    const auto cloud = test::disordered_cloud<Dim>(Dim == 1 ? 6000 : Dim == 2 ? 70 : 17, spacing,
-                                                   170);
+    const auto cloud = test::disordered_cloud<Dim>(Dim == 1   ? 6000
+                                                   : Dim == 2 ? 70
+                                                              : 17,
+                                                   spacing, 170);
     const auto domain = test::cube<Dim>(spacing * (Dim == 1 ? 6000 : Dim == 2 ? 70 : 17), true);
     const Reach reach{.support = 3, .skin = 0.01, .h_max = largest_h(cloud)};
     const auto expected =
@@ -333,8 +336,8 @@ TEMPLATE_LIST_TEST_CASE("a periodic axis shorter than two reaches is refused", "
   const auto refusal = [&](double period, double skin, bool periodic) {
     const Reach reach{.support = 3, .skin = skin, .h_max = 0.125};
     const auto domain = test::cube<2>(period, periodic);
-    const auto by_cells = test::refusal(
-        [&] { lists_of<CellList, TestType, double>(cloud, domain, reach); });
+    const auto by_cells =
+        test::refusal([&] { lists_of<CellList, TestType, double>(cloud, domain, reach); });
     CHECK(by_cells ==
           test::refusal([&] { lists_of<BruteForce, TestType, double>(cloud, domain, reach); }));
     return by_cells;

@@ -89,12 +89,8 @@ void check_all_threads(const Integrator& integrator) {
 }  // namespace
 
 TEST_CASE("a run has the same bits in one thread, in several, and without threads", "[sph]") {
-  SECTION("in double precision") {
-    check_all_threads<double>(sphmbs::time::PredictorCorrector{});
-  }
-  SECTION("in single precision") {
-    check_all_threads<float>(sphmbs::time::PredictorCorrector{});
-  }
+  SECTION("in double precision") { check_all_threads<double>(sphmbs::time::PredictorCorrector{}); }
+  SECTION("in single precision") { check_all_threads<float>(sphmbs::time::PredictorCorrector{}); }
   SECTION("with Heun's method") { check_all_threads<double>(sphmbs::time::Heun{}); }
 }
 

@@ -104,8 +104,7 @@ TEMPLATE_LIST_TEST_CASE("rates of gas and of moving walls are those of the print
   check(std::integral_constant<int, 3>{});
 }
 
-TEMPLATE_LIST_TEST_CASE("the survey counts the pairs inside the support", "[sph]",
-                        test::Policies) {
+TEMPLATE_LIST_TEST_CASE("the survey counts the pairs inside the support", "[sph]", test::Policies) {
   const bool periodic = GENERATE(false, true);
   const double spacing = 0.1;
   const auto check = [&]<int Dim>(std::integral_constant<int, Dim>) {
@@ -123,8 +122,8 @@ TEMPLATE_LIST_TEST_CASE("the survey counts the pairs inside the support", "[sph]
 
 TEST_CASE("without XSPH every particle moves with its own velocity", "[sph]") {
   const auto cloud = test::disordered_cloud<2>(12, 0.1, 9);
-  const auto found = test::rates_of(test::Gas<2, sphmbs::sph::NoXsph>{},
-                                    test::cube<2>(1.2, true), cloud);
+  const auto found =
+      test::rates_of(test::Gas<2, sphmbs::sph::NoXsph>{}, test::cube<2>(1.2, true), cloud);
   for (std::size_t i = 0; i < cloud.size(); ++i) CHECK(found.r[i] == cloud.v[i]);
 }
 

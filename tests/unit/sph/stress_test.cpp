@@ -58,23 +58,24 @@ constexpr double lattice_error = 3e-3;
 TEMPLATE_LIST_TEST_CASE("heat flows from hot to cold and none is lost", "[sph]", test::Policies) {
   auto cloud = test::lattice_cloud<3>(2, spacing, test::still_air<3>());
   cloud.rho[3] = 0.6;  // hot, at the same pressure
-  const auto rates = added<TestType>(Newtonian{.viscosity = 0, .conductivity = 0.7},
-                                     free_space<3>(), cloud);
+  const auto rates =
+      added<TestType>(Newtonian{.viscosity = 0, .conductivity = 0.7}, free_space<3>(), cloud);
   test::Sum energy;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (i == 3) CHECK(rates.e[i] < 0);
-    else CHECK(rates.e[i] > 0);
+    if (i == 3)
+      CHECK(rates.e[i] < 0);
+    else
+      CHECK(rates.e[i] > 0);
     energy.add(cloud.m[i] * rates.e[i]);
   }
   CHECK(energy.share() < 1e-12);
 }
 
-TEMPLATE_LIST_TEST_CASE("no heat flows where the temperature is uniform", "[sph]",
-                        test::Policies) {
+TEMPLATE_LIST_TEST_CASE("no heat flows where the temperature is uniform", "[sph]", test::Policies) {
   auto cloud = test::disordered_cloud<2>(12, spacing, 61);
   for (std::size_t i = 0; i < cloud.size(); ++i) cloud.p[i] = 8e4 * cloud.rho[i];
-  const auto without = test::rates_of<TestType, double>(
-      newtonian_gas<2>({.viscosity = 0.1}), free_space<2>(), cloud);
+  const auto without = test::rates_of<TestType, double>(newtonian_gas<2>({.viscosity = 0.1}),
+                                                        free_space<2>(), cloud);
   const auto with = test::rates_of<TestType, double>(
       newtonian_gas<2>({.viscosity = 0.1, .conductivity = 1e3}), free_space<2>(), cloud);
   // Temperatures are equal to some roundings of 280 K; a difference of 1 K would bring this much.
@@ -88,8 +89,8 @@ TEMPLATE_LIST_TEST_CASE("viscous dissipation is never negative", "[sph]", test::
     const auto cloud = test::disordered_cloud<Dim>(test::some_hundreds<Dim>, spacing, 62);
     // So viscous that the pressure's heating, from which it is told by a difference, is small.
     for (const double bulk : {0.0, 1000.0, 5000.0 / 3}) {
-      const auto rates = added<TestType>(Newtonian{.viscosity = 1000, .bulk = bulk},
-                                         free_space<Dim>(), cloud);
+      const auto rates =
+          added<TestType>(Newtonian{.viscosity = 1000, .bulk = bulk}, free_space<Dim>(), cloud);
       for (std::size_t i = 0; i < cloud.size(); ++i) REQUIRE(rates.e[i] > 0);
     }
   };
@@ -121,8 +122,8 @@ TEMPLATE_LIST_TEST_CASE("viscous forces are mu lap v + (zeta + mu/3) grad div v"
         auto cloud = still_lattice<Dim>();
         for (std::size_t i = 0; i < cloud.size(); ++i)
           cloud.v[i][along] = curvature / 2 * cloud.r[i][across] * cloud.r[i][across];
-        const auto rates = added<TestType>(Newtonian{.viscosity = mu, .bulk = zeta},
-                                           free_space<Dim>(), cloud);
+        const auto rates =
+            added<TestType>(Newtonian{.viscosity = mu, .bulk = zeta}, free_space<Dim>(), cloud);
         const std::size_t middle = cloud.size() / 2;
         const double factor = along == across ? 4 * mu / 3 + zeta : mu;
         const double expected = factor * curvature / cloud.rho[middle];
@@ -148,8 +149,8 @@ TEMPLATE_LIST_TEST_CASE("heat conduction is k lap T", "[sph]", test::Policies) {
       const double temperature = 300 + curvature / 2 * cloud.r[i][0] * cloud.r[i][0];
       cloud.p[i] = cloud.rho[i] * air.gas_constant / air.molar_mass * temperature;
     }
-    const auto without = test::rates_of<TestType, double>(
-        newtonian_gas<Dim>({.viscosity = 0}), free_space<Dim>(), cloud);
+    const auto without = test::rates_of<TestType, double>(newtonian_gas<Dim>({.viscosity = 0}),
+                                                          free_space<Dim>(), cloud);
     const auto with = test::rates_of<TestType, double>(
         newtonian_gas<Dim>({.viscosity = 0, .conductivity = k}), free_space<Dim>(), cloud);
     const std::size_t middle = cloud.size() / 2;

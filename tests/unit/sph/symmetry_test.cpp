@@ -30,9 +30,9 @@ struct Case {
 template <class Policy, int Dim>
 double change(const Cloud<Dim>& before, const Cloud<Dim>& after, const Domain<Dim>& domain) {
   const auto sizes = test::reference_rates(test::ReferenceGas{}, domain, before);
-  return test::largest_difference(
-      test::rates_of<Policy, double>(test::Gas<Dim>{}, domain, before),
-      test::rates_of<Policy, double>(test::Gas<Dim>{}, domain, after), sizes);
+  return test::largest_difference(test::rates_of<Policy, double>(test::Gas<Dim>{}, domain, before),
+                                  test::rates_of<Policy, double>(test::Gas<Dim>{}, domain, after),
+                                  sizes);
 }
 
 double into(double x, double side) { return x - side * std::floor(x / side); }
@@ -61,8 +61,7 @@ TEMPLATE_LIST_TEST_CASE("rates do not depend on which image of a particle is giv
     Cloud<Dim> images = start.cloud;
     test::Random random(42);
     for (auto& r : images.r)
-      for (int k = 0; k < Dim; ++k)
-        r[k] += start.side * (static_cast<double>(random.below(3)) - 1);
+      for (int k = 0; k < Dim; ++k) r[k] += start.side * (static_cast<double>(random.below(3)) - 1);
     CHECK(change<TestType>(start.cloud, images, test::cube<Dim>(start.side, true)) < rounding);
   };
   check(std::integral_constant<int, 1>{});

@@ -21,7 +21,9 @@ constexpr double rounding = 1e-12;
 constexpr double spacing = 0.1;
 
 template <int Dim>
-constexpr int per_side = Dim == 1 ? 21 : Dim == 2 ? 11 : 9;
+constexpr int per_side = Dim == 1   ? 21
+                         : Dim == 2 ? 11
+                                    : 9;
 
 template <int Dim>
 sphmbs::particles::State<Dim> moving_air() {
@@ -102,12 +104,11 @@ TEMPLATE_LIST_TEST_CASE("the body force accelerates gas and nothing else", "[sph
   gas.acceleration = {3, -9.81};
   auto cloud = test::lattice_cloud<2>(11, spacing, test::still_air<2>());
   cloud.set[7] = 1;
-  const auto rates = test::rates_of<TestType, double>(gas, test::cube<2>(11 * spacing, true),
-                                                      cloud);
+  const auto rates =
+      test::rates_of<TestType, double>(gas, test::cube<2>(11 * spacing, true), cloud);
   const double force = rounding * 1e5 / (1.2 * cloud.h[0]);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const sphmbs::Vec<2> expected =
-        i == 7 ? sphmbs::Vec<2>{0, 0} : sphmbs::Vec<2>{3, -9.81};
+    const sphmbs::Vec<2> expected = i == 7 ? sphmbs::Vec<2>{0, 0} : sphmbs::Vec<2>{3, -9.81};
     CHECK(test::length(rates.v[i] - expected) < force);
   }
 }
@@ -115,8 +116,8 @@ TEMPLATE_LIST_TEST_CASE("the body force accelerates gas and nothing else", "[sph
 TEMPLATE_LIST_TEST_CASE("the density follows the divergence of a linear velocity field", "[sph]",
                         test::Policies) {
   const auto check = []<int Dim>(std::integral_constant<int, Dim>) {
-    // The sum -sum m/rho W' d d / r over a lattice is the unit tensor times 1 + this much at most: for
-    // the quintic spline at h = 1.25 spacings 1.2e-3 on a line, less in the plane and in space.
+    // The sum -sum m/rho W' d d / r over a lattice is the unit tensor times 1 + this much at most:
+    // for the quintic spline at h = 1.25 spacings 1.2e-3 on a line, less in the plane and in space.
     constexpr double lattice_error = 1.25e-3;
     const double gradient[3][3] = {{2, 5, -3}, {-4, 1, 7}, {6, -2, 0.5}};
     constexpr int cells = per_side<Dim>;

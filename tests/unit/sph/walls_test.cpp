@@ -178,8 +178,7 @@ TEMPLATE_LIST_TEST_CASE(
   test::Sum gain;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     gain.add(cloud.m[i] * rates.e[i]);
-    if (cloud.set[i] == sphmbs::particles::gas)
-      gain.add(cloud.m[i] * dot(cloud.v[i], rates.v[i]));
+    if (cloud.set[i] == sphmbs::particles::gas) gain.add(cloud.m[i] * dot(cloud.v[i], rates.v[i]));
   }
   fluid.commit(1e-6, 1e-6);
   const auto& exchange = fluid.exchange();
