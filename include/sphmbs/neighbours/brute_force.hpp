@@ -12,7 +12,7 @@ template <int Dim, class T, execution::ExecutionPolicy Policy>
 class BruteForce {
  public:
   /// Lists the neighbours of each particle in ascending order; the particles stay where they are.
-  /// @throws InvalidInput if a periodic axis is shorter than two reaches.
+  /// @throws InvalidInput if a periodic axis is shorter than two supports.
   void rebuild(particles::Particles<Dim, T, Policy>& particles, const geometry::Domain<Dim>& domain,
                const Reach& reach) {
     check_reach(domain, reach);

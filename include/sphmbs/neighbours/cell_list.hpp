@@ -63,7 +63,7 @@ class CellList {
  public:
   /// Sorts the particles and lists the neighbours of each, in the order of the cells. The result
   /// does not depend on the number of threads.
-  /// @throws InvalidInput if a periodic axis is shorter than two reaches.
+  /// @throws InvalidInput if a periodic axis is shorter than two supports.
   void rebuild(particles::Particles<Dim, T, Policy>& particles, const geometry::Domain<Dim>& domain,
                const Reach& reach) {
     check_reach(domain, reach);

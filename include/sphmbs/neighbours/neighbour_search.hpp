@@ -37,14 +37,16 @@ concept NeighbourSearch = requires(S search, particles::Particles<Dim, T, Policy
   { search.bytes() } -> std::same_as<std::size_t>;
 };
 
-/// @throws InvalidInput where a periodic axis is too short for nearest images to be unique.
+/// Nearest images are unique while a period is at least two supports long; the skin does not count,
+/// since it only lists pairs early.
+/// @throws InvalidInput where a periodic axis is shorter.
 template <int Dim>
 void check_reach(const geometry::Domain<Dim>& domain, const Reach& reach) {
+  const double shortest = 2 * reach.support * reach.h_max;
   for (int k = 0; k < Dim; ++k)
-    expects(!domain.periodic[static_cast<std::size_t>(k)] ||
-                domain.box.length(k) >= 2 * reach.largest(),
+    expects(!domain.periodic[static_cast<std::size_t>(k)] || domain.box.length(k) >= shortest,
             "periodic length", domain.box.length(k),
-            "at least two support radii, " + std::to_string(2 * reach.largest()) +
+            "at least two support radii, " + std::to_string(shortest) +
                 " m: lower the spacing or lengthen the domain");
 }
 

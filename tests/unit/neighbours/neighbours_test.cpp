@@ -147,7 +147,7 @@ TEMPLATE_LIST_TEST_CASE("a pair is listed where it is closer than the mean of it
 
 TEMPLATE_LIST_TEST_CASE("every number of cells along a periodic axis is searched once around",
                         "[neighbours]", test::Policies) {
-  // From two reaches, the shortest period allowed, which makes 4 cells, to 9 cells.
+  // From two supports, the shortest period allowed, which makes 4 cells, to 9 cells.
   for (const double reaches : {2.0, 2.3, 2.5, 2.7, 3.0, 3.2, 3.5, 3.9, 4.0, 4.6}) {
     CAPTURE(reaches);
     const double period = reaches * 3 * 0.125 * (1 + 1e-12);
@@ -329,7 +329,7 @@ TEMPLATE_LIST_TEST_CASE("lists made again from the same search are those of a fr
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("a periodic axis shorter than two reaches is refused", "[neighbours]",
+TEMPLATE_LIST_TEST_CASE("a periodic axis shorter than two supports is refused", "[neighbours]",
                         test::Policies) {
   using Catch::Matchers::Contains;
   const auto cloud = cloud_at<2>({{0.1, 0.1}});
@@ -345,5 +345,5 @@ TEMPLATE_LIST_TEST_CASE("a periodic axis shorter than two reaches is refused", "
   CHECK(refusal(0.75, 0, true).empty());
   CHECK(refusal(0.74, 0, false).empty());
   CHECK_THAT(refusal(0.74, 0, true), Contains("periodic length = 0.74"));
-  CHECK_THAT(refusal(0.8, 0.1, true), Contains("0.95"));
+  CHECK(refusal(0.8, 0.1, true).empty());
 }
