@@ -14,7 +14,9 @@ using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::I
 template <class Policy>
 void gas_cylinder(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
-  examples::require(dx <= 2, "--spacing", dx, "at most 2 m, a tenth of the cylinder");
+  examples::require(dx <= 2 && std::abs(100 / dx - std::round(100 / dx)) < 1e-6, "--spacing", dx,
+                    "a whole fraction of the pipe's length, 100 m, and at most 2 m");
+  examples::require_memory(5000 / (dx * dx), dx);
 
   // Where: a pipe, periodic along x, with a cylinder across it.
   const geometry::Box<2> pipe{.lower = {0, 0}, .upper = {100, 50}};                // [m]

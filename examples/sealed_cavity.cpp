@@ -16,6 +16,7 @@ void sealed_cavity(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
   examples::require(std::abs(1 / dx - std::round(1 / dx)) < 1e-6 && dx <= 0.1, "--spacing", dx,
                     "a whole fraction of the side, 1 m, of at least ten particles");
+  examples::require_memory(1 / (dx * dx), dx);
   examples::require(settings.until <= 0.9, "--until", settings.until,
                     "at most 0.9 s: the walls meet at 1 s");
 

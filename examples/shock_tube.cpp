@@ -18,6 +18,7 @@ void shock_tube(const examples::Settings& settings, Policy policy) {
       sph::RiemannSph<kernels::QuinticSpline<dim>, riemann::Acoustic, eos::IdealGas, Smoothing>;
   const double dx = settings.spacing;
   examples::require(dx <= 0.025, "--spacing", dx, "at most 0.025 m, a fortieth of the tube");
+  examples::require_memory(std::pow(24, dim - 1) / dx, dx);
 
   // Particles of (nearly) equal mass on both sides, so that the right ones are wider apart; the
   // tube is as wide as its periodic sides ask for, and ends in fixed walls of virtual particles.

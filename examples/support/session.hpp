@@ -64,12 +64,12 @@ class Session {
   template <class Integrator>
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
+    const Clock::time_point begin = Clock::now();
     fluid_.stage(0, 0);
     fluid_.rates(0);
     banner(is_new);
     history_.begin(file("history.csv"), name_ + ", sphmbs " + std::string(version));
     const double interval = settings_.until / samples;
-    const Clock::time_point begin = Clock::now();
     io::PvdCollection collection(file("fields.pvd"));
     const Schedule schedule{settings_.until, settings_.cfl, settings_.step};
     sphmbs::run(

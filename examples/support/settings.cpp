@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <omp.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -443,6 +444,16 @@ void require(bool condition, std::string_view option, double value, std::string_
 void require(bool condition, std::string_view option, std::string_view value,
              std::string_view allowed) {
   if (!condition) refuse(option, value, "must be " + std::string(allowed));
+}
+
+void require_memory(double particles, double spacing) {
+  constexpr double bytes_per_particle = 600;
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const double most = memory / bytes_per_particle;
+  require(particles < most, "--spacing", spacing,
+          "wide enough for the memory of this computer, about " + format_number(most, 2) +
+              " particles");
 }
 
 }  // namespace sphmbs::examples

@@ -107,4 +107,8 @@ void require(bool condition, std::string_view option, double value, std::string_
 void require(bool condition, std::string_view option, std::string_view value,
              std::string_view allowed);
 
+/// Checks that about `particles` of them fit into the memory of this computer. Throws InvalidInput
+/// naming --spacing, its value and how many would fit.
+void require_memory(double particles, double spacing);
+
 }  // namespace sphmbs::examples

@@ -25,7 +25,8 @@ struct Lattice {
   /// @param shape   what to fill
   /// @param domain  along periodic axes only one period is filled
   /// @param margin  how far beyond the domain's box the other axes are searched [m]
-  /// @throws InvalidInput if the spacing is not positive or does not divide a periodic length.
+  /// @throws InvalidInput if the spacing is not positive, does not divide a periodic length, or is
+  ///         too small for 32-bit particle numbers.
   template <Shape S>
   std::vector<Vec<Dim>> points(const S& shape, const Domain<Dim>& domain, double margin = 0) const {
     return collect(shape, domain, margin, tolerance * spacing);
@@ -41,6 +42,10 @@ struct Lattice {
   /// @throws InvalidInput as `points` says.
   void check(const Domain<Dim>& domain) const {
     expects(std::isfinite(spacing) && spacing > 0, "spacing", spacing, "positive [m]");
+    double count = 1;
+    for (int k = 0; k < Dim; ++k) count *= domain.box.length(k) / spacing;
+    expects(count < 4294967295.0, "spacing", spacing,
+            "wide enough for fewer than 2^32 particles in the domain");
     for (int k = 0; k < Dim; ++k) {
       if (!domain.periodic[static_cast<std::size_t>(k)]) continue;
       const double intervals = domain.box.length(k) / spacing;

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Bad input ends every program with exit code 2 and one line that names the option, its value and
+// what is allowed, before anything is written.
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "support/catch.hpp"
+#include "support/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+struct Program {
+  const char* path;
+  const char* name;
+};
+
+const Program programs[] = {{SPHMBS_GAS_CYLINDER, "gas_cylinder"},
+                            {SPHMBS_SEALED_CAVITY, "sealed_cavity"},
+                            {SPHMBS_SHOCK_TUBE, "shock_tube"},
+                            {SPHMBS_SHOCK_TUBE_2D, "shock_tube_2d"},
+                            {SPHMBS_SHOCK_TUBE_3D, "shock_tube_3d"}};
+
+struct Row {
+  Words words;
+  Words said;  // each appears in the line
+};
+
+/// What must be refused by every program.
+std::vector<Row> rows() {
+  std::vector<Row> all = {
+      {{"--spaceing", "0.5"}, {"--spaceing", "did you mean --spacing?"}},
+      {{"--treads", "2"}, {"--treads", "did you mean --threads?"}},
+      {{"--nothing-like-it", "2"}, {"--nothing-like-it", "--help"}},
+      {{"0.5"}, {"0.5", "is not an option"}},
+      {{"--cfl", "0.2", "--step", "1e-3"}, {"--step 1e-3", "excludes --cfl"}},
+      {{"--cfl", "1.5"}, {"--cfl 1.5", "at most 1"}},
+      {{"--spacing", "1000"}, {"--spacing 1000", "must be"}},
+      {{"--backend", "cuda"}, {"--backend cuda", "openmp", "serial"}},
+      {{"--backend", "serial", "--threads", "2"}, {"--threads 2", "serial"}},
+      {{"--spacing", "0.01", "--spacing", "0.01"}, {"--spacing", "more than once"}},
+      {{"--quiet=yes"}, {"--quiet", "takes no value"}}};
+  for (const char* option :
+       {"--spacing", "--until", "--step", "--cfl", "--threads", "--backend", "--output"})
+    all.push_back({{option}, {option, "needs a value", "must be"}});
+  for (const char* option : {"--spacing", "--until", "--step", "--cfl", "--threads"})
+    for (const char* value : {"abc", "1x", "nan", "inf", "-inf", "0", "-1", "1e400", "-1e400"})
+      all.push_back(
+          {{option, value}, {std::string(option) + " " + value + ":", "must be", "number"}});
+  for (const char* value : {"1.5", "99999", "99999999999999999999"})
+    all.push_back({{"--threads", value}, {std::string("--threads ") + value, "whole number"}});
+  return all;
+}
+
+/// One line on standard error with all that is to be said, and nothing else anywhere.
+void check_refused(const test::Scratch& scratch, const Program& program, const Words& words,
+                   const Words& said, const Words& on_disk = {}) {
+  std::string typed = program.name;
+  for (const std::string& word : words) typed += " " + word;
+  CAPTURE(typed);
+  const auto ended = test::start(scratch, program.path, words);
+  CAPTURE(ended.err);
+  CHECK(ended.code == 2);
+  CHECK(ended.out.empty());
+  CHECK(test::lines_of(ended.err).size() == 1);
+  CHECK_THAT(ended.err, Catch::StartsWith("error: ") && Catch::EndsWith("\n"));
+  for (const std::string& part : said) CHECK_THAT(ended.err, Catch::Contains(part));
+  Words found = scratch.found();
+  std::sort(found.begin(), found.end());
+  CHECK(found == on_disk);
+}
+
+}  // namespace
+
+TEST_CASE("the programs refuse bad options and write nothing", "[programs]") {
+  const test::Scratch scratch;
+  const auto table = rows();
+  for (const Program& program : programs)
+    for (const Row& row : table) check_refused(scratch, program, row.words, row.said);
+}
+
+TEST_CASE("the programs refuse what does not fit their case", "[programs]") {
+  const test::Scratch scratch;
+  const Program& cylinder = programs[0];
+  const Program& cavity = programs[1];
+  check_refused(scratch, cylinder, {"--spacing", "0.3"}, {"spacing", "0.3", "must be", "100"});
+  check_refused(scratch, cylinder, {"--spacing", "2.5"}, {"--spacing 2.5", "at most 2 m"});
+  check_refused(scratch, cavity, {"--spacing", "0.03"}, {"--spacing 0.03", "whole fraction"});
+  check_refused(scratch, cavity, {"--until", "1"}, {"--until 1", "at most 0.9 s"});
+  for (const Program& tube : {programs[2], programs[3], programs[4]})
+    check_refused(scratch, tube, {"--spacing", "0.1"}, {"--spacing 0.1", "at most 0.025 m"});
+}
+
+TEST_CASE("the programs refuse a folder of results they cannot or may not fill", "[programs]") {
+  const test::Scratch scratch;
+  std::ofstream(scratch.work() / "file") << "mine";
+  fs::create_directory(scratch.work() / "full");
+  std::ofstream(scratch.work() / "full" / "mine") << "mine";
+  const Words before = {"file", "full", "full/mine"};
+  for (const Program& program : programs) {
+    const auto refused = [&](const std::string& folder, const Words& said) {
+      Words all = said;
+      all.push_back("--output " + folder + ":");
+      all.push_back("must be");
+      check_refused(scratch, program, {"--output", folder}, all, before);
+    };
+    refused("file", {"a file has this name"});
+    refused("file/below", {"not a directory"});
+    refused("full", {"new or empty", "--overwrite"});
+    refused("/dev/null/below", {"not a directory"});
+  }
+  CHECK(test::text_of(scratch.work() / "file") == "mine");
+  CHECK(test::text_of(scratch.work() / "full" / "mine") == "mine");
+
+  // The superuser may write anywhere.
+  if (::geteuid() == 0) return;
+  fs::create_directory(scratch.work() / "locked");
+  fs::permissions(scratch.work() / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  for (const Program& program : programs)
+    for (const char* folder : {"locked", "locked/below"})
+      check_refused(scratch, program, {"--output", folder},
+                    {std::string("--output ") + folder, "must be"},
+                    {"file", "full", "full/mine", "locked"});
+}
+
+TEST_CASE("the programs answer --help and --version and write nothing", "[programs]") {
+  const test::Scratch scratch;
+  for (const Program& program : programs) {
+    CAPTURE(program.name);
+    const auto help = test::start(scratch, program.path, {"--help"});
+    CHECK(help.code == 0);
+    CHECK(help.err.empty());
+    for (const char* option : {"--spacing", "--until", "--step", "--cfl", "--threads", "--backend",
+                               "--output", "--overwrite", "--quiet", "Exit codes"})
+      CHECK_THAT(help.out, Catch::Contains(option));
+    const auto version = test::start(scratch, program.path, {"--version"});
+    CHECK(version.code == 0);
+    CHECK(version.err.empty());
+    CHECK(test::lines_of(version.out).size() == 1);
+    CHECK_THAT(version.out,
+               Catch::StartsWith(std::string(program.name) + " ") && Catch::Contains("sphmbs"));
+    CHECK(scratch.found().empty());
+  }
+}
