@@ -33,6 +33,21 @@ SPHMBS_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
 
 template <class T, int W>
 SPHMBS_INLINE Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) {
+  using V [[maybe_unused]] = typename Pack<T, W>::Vector;
+#if defined(__AVX512F__)
+  if constexpr (sizeof(V) == 64 && sizeof(T) == 8)
+    return (V)_mm512_maskz_max_pd(0xff, (__m512d)b.v, (__m512d)a.v);
+#endif
+#if defined(__AVX__)
+  if constexpr (sizeof(V) == 32 && sizeof(T) == 8)
+    return (V)_mm256_max_pd((__m256d)b.v, (__m256d)a.v);
+  if constexpr (sizeof(V) == 32 && sizeof(T) == 4)
+    return (V)_mm256_max_ps((__m256)b.v, (__m256)a.v);
+#endif
+#if defined(__SSE2__)
+  if constexpr (sizeof(V) == 16 && sizeof(T) == 8) return (V)_mm_max_pd((__m128d)b.v, (__m128d)a.v);
+  if constexpr (sizeof(V) == 16 && sizeof(T) == 4) return (V)_mm_max_ps((__m128)b.v, (__m128)a.v);
+#endif
   return a.v < b.v ? b.v : a.v;
 }
 template <class T, int W>

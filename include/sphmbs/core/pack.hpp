@@ -21,6 +21,12 @@ struct VectorOf {
   using type [[gnu::vector_size(W * sizeof(T))]] = T;
 };
 
+// The same for numbers anywhere in memory.
+template <class T, int W>
+struct UnalignedVectorOf {
+  using type [[gnu::vector_size(W * sizeof(T)), gnu::aligned(alignof(T)), gnu::may_alias]] = T;
+};
+
 template <class T>
 constexpr int vector_bytes() {
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
@@ -58,6 +64,12 @@ struct Mask {
     if constexpr (W == 4 && sizeof(T) == 8)
       return static_cast<unsigned>(_mm256_movemask_pd((__m256d)v));
 #endif
+#if defined(__SSE2__)
+    if constexpr (W == 4 && sizeof(T) == 4)
+      return static_cast<unsigned>(_mm_movemask_ps((__m128)v));
+    if constexpr (W == 2 && sizeof(T) == 8)
+      return static_cast<unsigned>(_mm_movemask_pd((__m128d)v));
+#endif
     unsigned b = 0;
     for (int l = 0; l < W; ++l) {
       // In one expression, GCC 12's undefined-behaviour sanitizer reads lane l before l is set.
@@ -90,13 +102,19 @@ struct Pack {
   SPHMBS_INLINE Pack& operator*=(Pack b) { return v *= b.v, *this; }
 
   friend SPHMBS_INLINE Mask<T, W> operator<(Pack a, Pack b) { return {a.v < b.v}; }
+  /// The bits of a < b, by the instruction that yields them where there is one.
+  friend SPHMBS_INLINE unsigned bits_less(Pack a, Pack b) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(Vector) == 64 && sizeof(T) == 8)
+      return _mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OS);
+#endif
+    return (a < b).bits();
+  }
   friend SPHMBS_INLINE Mask<T, W> operator>(Pack a, Pack b) { return {a.v > b.v}; }
 
   /// W consecutive numbers from memory, no alignment needed.
   static SPHMBS_INLINE Pack load(const T* p) {
-    Pack x;
-    __builtin_memcpy(&x.v, p, sizeof(Vector));
-    return x;
+    return Vector(*reinterpret_cast<const typename detail::UnalignedVectorOf<T, W>::type*>(p));
   }
 };
 
@@ -142,6 +160,21 @@ struct ScalarOf<Pack<T, W>> {
 template <class N>
 using Scalar = typename detail::ScalarOf<N>::type;
 
+namespace detail {
+/// The set lanes of each pattern of W bits, first the first.
+template <int W>
+struct SetLanes {
+  std::uint32_t lane[1 << W][W] = {};
+  constexpr SetLanes() {
+    for (unsigned bits = 0; bits < (1u << W); ++bits)
+      for (int l = 0, n = 0; l < W; ++l)
+        if ((bits >> l & 1u) != 0) lane[bits][n++] = static_cast<std::uint32_t>(l);
+  }
+};
+template <int W>
+inline constexpr SetLanes<W> set_lanes{};
+}  // namespace detail
+
 /// Appends to `out` the numbers begin + l for each lane l that is set in `bits`; returns how many.
 /// `out` must have room for W entries.
 template <int W>
@@ -155,6 +188,13 @@ SPHMBS_INLINE int append_set_lanes(unsigned bits, std::uint32_t begin, std::uint
     return __builtin_popcount(bits);
   }
 #endif
+  if constexpr (W == 4) {
+    typename detail::VectorOf<std::uint32_t, W>::type index;
+    __builtin_memcpy(&index, detail::set_lanes<W>.lane[bits], sizeof index);
+    index += begin;
+    __builtin_memcpy(out, &index, sizeof index);
+    return __builtin_popcount(bits);
+  }
   int n = 0;
   for (int l = 0; l < W; ++l) {
     out[n] = begin + static_cast<std::uint32_t>(l);

@@ -13,12 +13,28 @@ namespace detail {
 /// Four fields of the W records that start at the given addresses, one pack a field.
 template <class T, int W>
 SPHMBS_INLINE void transpose_four(const T* const (&at)[W], Pack<T, W>* field) {
+  if constexpr (W == 2) {
+    using Two = typename VectorOf<T, 2>::type;
+    using Unaligned = typename UnalignedVectorOf<T, 2>::type;
+    const Two a = *reinterpret_cast<const Unaligned*>(at[0]);
+    const Two b = *reinterpret_cast<const Unaligned*>(at[1]);
+    const Two c = *reinterpret_cast<const Unaligned*>(at[0] + 2);
+    const Two d = *reinterpret_cast<const Unaligned*>(at[1] + 2);
+    field[0] = __builtin_shufflevector(a, b, 0, 2);
+    field[1] = __builtin_shufflevector(a, b, 1, 3);
+    field[2] = __builtin_shufflevector(c, d, 0, 2);
+    field[3] = __builtin_shufflevector(c, d, 1, 3);
+    return;
+  }
   using Four = typename VectorOf<T, 4>::type;
   Four row[W];
-  for (int l = 0; l < W; ++l) __builtin_memcpy(&row[l], at[l], sizeof(Four));
+#pragma GCC unroll 16
+  for (int l = 0; l < W; ++l)
+    row[l] = *reinterpret_cast<const typename UnalignedVectorOf<T, 4>::type*>(at[l]);
   if constexpr (W == 8) {
     using Eight = typename VectorOf<T, 8>::type;
     Eight r[4];
+#pragma GCC unroll 4
     for (int l = 0; l < 4; ++l)
       r[l] = __builtin_shufflevector(row[l], row[l + 4], 0, 1, 2, 3, 4, 5, 6, 7);
     const Eight a = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -55,6 +71,7 @@ SPHMBS_INLINE void load_transposed(const T* records, const std::uint32_t* index,
   static_assert(fields >= 4 && fields <= 12, "two groups of four and one for the rest");
   const T* at[W];
   const auto group = [&](int first) SPHMBS_INLINE_LAMBDA {
+#pragma GCC unroll 16
     for (int l = 0; l < W; ++l) at[l] = records + std::size_t{index[l]} * fields + first;
     detail::transpose_four(at, out + first);
   };

@@ -21,6 +21,7 @@ struct Periodicity {
   /// The separation to the nearest image, for separations shorter than 1.5 periods.
   template <class N>
   SPHMBS_INLINE Vec<Dim, N> nearest(Vec<Dim, N> d) const {
+#pragma GCC unroll 3
     for (int k = 0; k < Dim; ++k) {
       const N up = d[k] + N(length[k]);
       const N down = d[k] - N(length[k]);

@@ -26,13 +26,15 @@ concept Kernel = std::is_trivially_copyable_v<K> && requires(double R) {
 /// @param inverse_h  1/h [1/m]
 template <Kernel K, class N>
 SPHMBS_INLINE N value(N r, N inverse_h) {
-  return N(K::normalisation) * math::power<K::dim>(inverse_h) * K::shape(r * inverse_h);
+  return N(static_cast<Scalar<N>>(K::normalisation)) * math::power<K::dim>(inverse_h) *
+         K::shape(r * inverse_h);
 }
 
 /// dW/dr = (1/h) dW/dR at distance r, never positive [1/m^(dim+1)].
 template <Kernel K, class N>
 SPHMBS_INLINE N derivative(N r, N inverse_h) {
-  return N(K::normalisation) * math::power<K::dim + 1>(inverse_h) * K::slope(r * inverse_h);
+  return N(static_cast<Scalar<N>>(K::normalisation)) * math::power<K::dim + 1>(inverse_h) *
+         K::slope(r * inverse_h);
 }
 
 }  // namespace sphmbs::kernels

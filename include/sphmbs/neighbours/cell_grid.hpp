@@ -97,6 +97,13 @@ struct CellGrid {
     return c;
   }
 
+  /// True where a row of cells holds one image only of what lies around a cell.
+  SPHMBS_INLINE bool rows_tell_image() const {
+    bool tell = true;
+    for (int k = 0; k < Dim; ++k) tell = tell && (!periodic[k] || count[k] > 2 * stencil + 1);
+    return tell;
+  }
+
   /// The cells along an axis that may hold neighbours of one in cell `at`: `cells` of them,
   /// beginning with `begin` and wrapping around after the last.
   struct Span {

@@ -4,6 +4,7 @@
 #include <sphmbs/core/atomic.hpp>
 #include <sphmbs/execution/scan.hpp>
 #include <sphmbs/neighbours/cell_grid.hpp>
+#include <sphmbs/neighbours/cell_neighbours.hpp>
 #include <sphmbs/neighbours/find_neighbours.hpp>
 
 namespace sphmbs::neighbours {
@@ -82,12 +83,21 @@ class CellList {
         .half_support = static_cast<T>(reach.support / 2),
         .skin = static_cast<T>(reach.skin),
         .border = static_cast<T>(reach.largest())};
-    Policy::for_each(n, detail::CountNeighbours{find, order.data()});
+    constexpr int W = Policy::template lanes<T>;
+    if constexpr (W > 1)
+      Policy::for_each(grid.cells(), detail::CellNeighbours<Dim, T, W, false>{find, order.data(),
+                                                                              nullptr, nullptr});
+    else
+      Policy::for_each(n, detail::CountNeighbours<Dim, T, W>{find, order.data()});
     const std::uint64_t pairs = execution::exclusive_scan<Policy>(n, order.data(), first_.data());
     // A little room to spare, since fresh memory for every new list would cost more than the list.
     if (pairs > list_.size() || 2 * pairs < list_.size())
       list_.resize_discarding(pairs + pairs / 64);
-    Policy::for_each(n, detail::ListNeighbours{find, first_.data(), list_.data()});
+    if constexpr (W > 1)
+      Policy::for_each(grid.cells(), detail::CellNeighbours<Dim, T, W, true>{
+                                         find, nullptr, first_.data(), list_.data()});
+    else
+      Policy::for_each(n, detail::ListNeighbours<Dim, T, W>{find, first_.data(), list_.data()});
   }
 
   NeighbourView view() const { return {first_.data(), list_.data()}; }

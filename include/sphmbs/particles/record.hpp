@@ -32,6 +32,7 @@ namespace detail {
 template <int Dim, class N>
 SPHMBS_INLINE Record<Dim, N> unpack(const N* f) {
   Record<Dim, N> s;
+#pragma GCC unroll 3
   for (int k = 0; k < Dim; ++k) {
     s.r[k] = f[k];
     s.v[k] = f[Dim + k];

@@ -34,7 +34,7 @@ class ListSchedule {
   /// are out of reach, a narrower one is used up sooner: for lists that cost `listing` evaluations
   /// of the rates and d dimensions, sqrt(listing R / (2 d s)) steps of s metres are best.
   neighbours::Reach plan(int dim, double support, double h_max, double dt) {
-    constexpr double listing = 1.2;
+    constexpr double listing = 0.6;
     const double widest = 0.13 / dim;  // of the reach: bounds the memory that lists take
     const double R = support * h_max;
     const double s = speed_ * step_;

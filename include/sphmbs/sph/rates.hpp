@@ -63,11 +63,13 @@ struct EvaluateRates {
       // The last pack is filled up with the particle itself, which adds nothing but one to the
       // count.
       std::uint32_t rest[lanes];
+#pragma GCC unroll 16
       for (int l = 0; l < lanes; ++l) rest[l] = l < end - b ? b[l] : static_cast<std::uint32_t>(i);
       idle = static_cast<T>(lanes - (end - b));
       term(particles::load_records<dim, lanes>(records, rest), sum);
     }
     PairSums<dim, T> total{.rho = lane_sum(sum.rho), .e = lane_sum(sum.e)};
+#pragma GCC unroll 3
     for (int k = 0; k < dim; ++k) {
       total.v[k] = lane_sum(sum.v[k]);
       total.r[k] = lane_sum(sum.r[k]);
