@@ -6,6 +6,8 @@
 #include <new>
 #include <string_view>
 
+#include <malloc.h>
+
 #include "sphmbs/core/error.hpp"
 #include "support/text.hpp"
 
@@ -41,6 +43,11 @@ int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
 
 int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
                  const std::function<void(const Settings&)>& run) {
+#if defined(__GLIBC__)
+  // Left to itself, glibc raises this threshold with every array that is freed, and then keeps the
+  // memory of fields that were written out.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
   return guarded_main(argc, argv, command_line, run, std::cout, std::cerr);
 }
 

@@ -92,7 +92,7 @@ class CellList {
     const std::uint64_t pairs = execution::exclusive_scan<Policy>(n, order.data(), first_.data());
     // A little room to spare, since fresh memory for every new list would cost more than the list.
     if (pairs > list_.size() || 2 * pairs < list_.size())
-      list_.resize_discarding(pairs + pairs / 64);
+      list_.resize_discarding(pairs + pairs / 256);
     if constexpr (W > 1)
       Policy::for_each(grid.cells(), detail::CellNeighbours<Dim, T, W, true>{
                                          find, nullptr, first_.data(), list_.data()});
