@@ -47,6 +47,9 @@ class Fluid {
         particles_(wrapped(cloud, domain),
                    [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
         gas_count_(cloud.gas_count()) {
+    static_assert(boundary::Motion<Motion, Vec<dim, T>>);
+    static_assert(neighbours::NeighbourSearch<Search, dim, T, Policy>);
+    static_assert(time::ExplicitSystem<Fluid>);
     scheme.check();
     domain.check();
     for (std::size_t i = 0; i < cloud.size(); ++i)
