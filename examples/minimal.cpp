@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A closed box of gas with a hot spot in its middle: sphmbs without any of the examples' support.
+// Gas between two walls, periodic along x, with a hot spot: sphmbs without the examples' support.
 #include <cstdio>
 
 #include <sphmbs/sphmbs.hpp>

@@ -69,13 +69,14 @@ Curve History::curve(const std::string& name, const std::string& label) const {
 
 double rms_difference(const History& history, const std::string& name,
                       const std::vector<double>& time, const std::vector<double>& reference,
-                      double from, double to) {
+                      const std::vector<double>& scale, double from, double to) {
   double sum = 0;
   int n = 0;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const double value = history.at(name, time[i]);
     if (time[i] < from - 1e-9 || time[i] > to + 1e-9 || std::isnan(value)) continue;
-    sum += (value - reference[i]) * (value - reference[i]);
+    const double difference = (value - reference[i]) / scale[i];
+    sum += difference * difference;
     ++n;
   }
   return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();

@@ -41,10 +41,10 @@ class History {
   std::unique_ptr<io::CsvWriter> file_;
 };
 
-/// Root mean square of (value - reference) over the reference times in [from, to] that the history
-/// has reached; NaN if there are none.
+/// Root mean square of (value - reference) / scale over the reference times in [from, to] that the
+/// history has reached; NaN if there are none.
 double rms_difference(const History& history, const std::string& name,
                       const std::vector<double>& time, const std::vector<double>& reference,
-                      double from, double to);
+                      const std::vector<double>& scale, double from, double to);
 
 }  // namespace sphmbs::examples

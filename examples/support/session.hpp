@@ -64,6 +64,7 @@ class Session {
   template <class Integrator>
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
+    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     const Clock::time_point begin = Clock::now();
     fluid_.stage(0, 0);
     fluid_.rates(0);

@@ -38,7 +38,8 @@ class Every {
   /// @throws InvalidInput unless the interval is positive.
   Every(double interval, Action action, Timing timing = Timing::exact)
       : interval_(interval), action_(std::move(action)), timing_(timing) {
-    expects(interval > 0, "interval", interval, "positive [s]");
+    expects(std::isfinite(interval) && interval > 0, "interval", interval,
+            "positive and finite [s]");
   }
 
   /// The next time that a step may not pass [s].

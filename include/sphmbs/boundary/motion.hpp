@@ -9,10 +9,11 @@
 namespace sphmbs::boundary {
 
 /// Prescribed motion of virtual particles. `position` carries a point from time t0 to t1 and
-/// `velocity` is its rate; `set` is the number of the set of virtual particles.
+/// `velocity` is its rate; `set` is the number of the set of virtual particles. Times are double in
+/// any fields [s].
 template <class M, class V = Vec<2, double>>
 concept Motion = std::is_trivially_copyable_v<M> &&
-    requires(const M motion, int set, V r, typename V::Component t) {
+    requires(const M motion, int set, V r, double t) {
   { motion.position(set, r, t, t) } -> std::same_as<V>;
   { motion.velocity(set, r, t) } -> std::same_as<V>;
 };
@@ -20,11 +21,11 @@ concept Motion = std::is_trivially_copyable_v<M> &&
 /// All virtual particles stay where they are.
 struct Fixed {
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, T, T) const {
+  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, double, double) const {
     return r;
   }
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>&, T) const {
+  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>&, double) const {
     return Vec<Dim, T>::all(T(0));
   }
 };
@@ -36,19 +37,16 @@ struct Contraction {
   double speed;   // of each wall, inwards [m/s]
 
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, T t0, T t1) const {
-    return (length_at(t1) / length_at(t0)) * r;
+  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, double t0, double t1) const {
+    return static_cast<T>(length_at(t1) / length_at(t0)) * r;
   }
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>& r, T t) const {
-    return (T(-2) * static_cast<T>(speed) / length_at(t)) * r;
+  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>& r, double t) const {
+    return static_cast<T>(-2 * speed / length_at(t)) * r;
   }
 
   /// l(t) [m].
-  template <class T>
-  SPHMBS_INLINE T length_at(T t) const {
-    return static_cast<T>(length) - T(2) * static_cast<T>(speed) * t;
-  }
+  SPHMBS_INLINE double length_at(double t) const { return length - 2 * speed * t; }
 };
 
 static_assert(Motion<Fixed> && Motion<Contraction>);

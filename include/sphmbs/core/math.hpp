@@ -30,6 +30,8 @@ SPHMBS_INLINE constexpr T select(bool condition, T x, T y) {
 }
 SPHMBS_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
 SPHMBS_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
+SPHMBS_INLINE double floor(double a) { return __builtin_floor(a); }
+SPHMBS_INLINE float floor(float a) { return __builtin_floorf(a); }
 
 template <class T, int W>
 SPHMBS_INLINE Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) {

@@ -37,7 +37,12 @@ struct IdealGas {
   }
 
   /// Heat capacity at constant pressure [J/(kg K)].
-  double heat_capacity() const { return gamma / (gamma - 1) * gas_constant / molar_mass; }
+  SPHMBS_INLINE double heat_capacity() const {
+    return gamma / (gamma - 1) * gas_constant / molar_mass;
+  }
+
+  /// Heat capacity at constant volume [J/(kg K)].
+  SPHMBS_INLINE double isochoric_heat_capacity() const { return heat_capacity() / gamma; }
 
   /// @throws InvalidInput unless gamma > 1 and molar mass and gas constant are positive.
   void check() const {

@@ -42,6 +42,9 @@ struct StiffenedGas {
   /// Heat capacity at constant pressure [J/(kg K)].
   double heat_capacity() const { return gamma * heat_capacity_v; }
 
+  /// Heat capacity at constant volume [J/(kg K)].
+  SPHMBS_INLINE double isochoric_heat_capacity() const { return heat_capacity_v; }
+
   /// @throws InvalidInput unless gamma > 1, p_inf >= 0 and the heat capacity is positive.
   void check() const {
     expects(gamma > 1, "gamma", gamma, "above 1");

@@ -30,13 +30,11 @@ struct Periodicity {
     return d;
   }
 
-  /// The image inside the box of a point that has left it by less than a period, eq. of sect. 3.1.
+  /// The image inside the box of a point, from however many periods away, sect. 3.1.
   SPHMBS_INLINE Vec<Dim, T> wrap(Vec<Dim, T> r) const {
     for (int k = 0; k < Dim; ++k) {
-      if (length[k] > 0) {
-        if (r[k] < lower[k]) r[k] += length[k];
-        if (r[k] >= lower[k] + length[k]) r[k] -= length[k];
-      }
+      if (length[k] > 0 && !(r[k] >= lower[k] && r[k] < lower[k] + length[k]))
+        r[k] -= length[k] * math::floor((r[k] - lower[k]) / length[k]);
     }
     return r;
   }

@@ -43,7 +43,8 @@ struct CellNeighbours {
     Vec<Dim, T> shift;
   };
   struct Rows {
-    Row row[2 * 25];
+    // Each row of the widest neighbourhood may come in two pieces.
+    Row row[2 * math::power<2>(2 * CellGrid<Dim, T>::stencil + 1)];
     int size = 0;
   };
 
@@ -57,8 +58,8 @@ struct CellNeighbours {
     for (int k = 0; k < Dim; ++k) {
       const int at = static_cast<int>(rest % static_cast<std::size_t>(grid.count[k]));
       rest /= static_cast<std::size_t>(grid.count[k]);
-      lo[k] = at - 2;
-      hi[k] = at + 2;
+      lo[k] = at - grid.stencil;
+      hi[k] = at + grid.stencil;
       if (!grid.periodic[k]) {
         lo[k] = lo[k] < 0 ? 0 : lo[k];
         hi[k] = hi[k] > grid.count[k] - 1 ? grid.count[k] - 1 : hi[k];

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,11 @@ class Particles {
   template <class Energy>
   Particles(const Cloud<Dim>& cloud, Energy energy) : size_(cloud.size()) {
     expects(size_ > 0 && size_ < 0xffffffffu, "particles", size_, "between 1 and 2^32 - 1");
+    for (const std::size_t entries : {cloud.v.size(), cloud.rho.size(), cloud.p.size(),
+                                      cloud.h.size(), cloud.m.size(), cloud.set.size()})
+      expects(entries == size_, "entries of a cloud's field", entries,
+              "as many as positions, " + std::to_string(size_));
+    for (const double m : cloud.m) expects(m > 0 && std::isfinite(m), "mass", m, "positive [kg]");
     for (Field<T>* f : numbers()) *f = Field<T>(std::vector<T>(padded()));
     const std::size_t n = size_;
     std::vector<T> column(padded());

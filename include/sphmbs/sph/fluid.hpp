@@ -64,7 +64,8 @@ class Fluid {
   ///         positive, or particles could move by more than they reach.
   void stage(double scale, double dt) {
     write_records(scale, dt);
-    lists_.staged(dt);
+    const double surplus = motion_surplus(dt);
+    lists_.staged(dt, surplus);
     if (!lists_.outdated(dt)) return;
     rebuild_lists(dt);
     write_records(scale, dt);
@@ -82,13 +83,14 @@ class Fluid {
                                    .set = particles_.fields().set,
                                    .rates = particles_.rates(),
                                    .keep = static_cast<T>(keep),
-                                   .border = static_cast<T>(1.5 * lists_.reach().largest())});
+                                   .border = static_cast<T>(lists_.reach().largest())});
     }
     const auto timer = statistics_.time(Phase::survey);
+    weight_ = keep * weight_ + 1;
     survey_ = execution::reduce<Policy>(
         size(), Survey<dim>{},
         SurveyParticle<Scheme, T>{scheme_, particles_.fields(), particles_.rates(),
-                                  particles_.records()});
+                                  particles_.records(), 1 / weight_});
     statistics_.pair_interactions += survey_.pairs;
     ++statistics_.evaluations;
     exchange_.evaluated(survey_, gas_mass_, scheme_.acceleration, keep);
@@ -97,13 +99,14 @@ class Fluid {
 
   /// y = y + scale k, and the time goes on by dt.
   void commit(double scale, double dt) {
+    const double surplus = motion_surplus(dt);
     const auto timer = statistics_.time(Phase::update);
     Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
     time_ += dt;
     last_dt_ = dt;
     exchange_.committed(scale);
     ++statistics_.steps;
-    lists_.stepped(dt);
+    lists_.stepped(dt, surplus);
   }
 
   /// Time of the state y [s].
@@ -128,7 +131,9 @@ class Fluid {
   }
 
   /// Force of the gas on a set of virtual particles at the last evaluation of the rates [N].
+  /// @throws InvalidInput unless the number is that of a set of virtual particles, 1 to 255.
   Vec<dim> force_on(int set) {
+    expects(set >= 1 && set <= 255, "set of virtual particles", set, "1 to 255");
     return execution::reduce<Policy>(
                size(), Force<dim>{},
                ForceOnParticle<dim, T>{particles_.fields(), particles_.rates(),
@@ -148,9 +153,6 @@ class Fluid {
   /// the first stage.
   particles::Particles<dim, T, Policy>& particles() { return particles_; }
 
-  /// Lists of neighbours as they stand.
-  neighbours::NeighbourView neighbours() const { return search_.view(); }
-
   /// Memory held [bytes].
   std::size_t bytes() { return particles_.bytes() + search_.bytes(); }
 
@@ -163,25 +165,41 @@ class Fluid {
   }
 
   Advance<dim, T, Motion> advance(double scale, double dt) {
-    return {particles_.fields(),   particles_.rates(),    motion_,
-            static_cast<T>(scale), static_cast<T>(time_), static_cast<T>(dt)};
+    return {particles_.fields(), particles_.rates(), motion_, static_cast<T>(scale), time_, dt};
   }
 
   void write_records(double scale, double dt) {
     const auto timer = statistics_.time(Phase::update);
     using Write = WriteRecords<Scheme, T, Motion>;
     culprit_.upload(std::array{Write::nobody});
-    Policy::for_each(size(),
-                     Write{advance(scale, dt), scheme_, particles_.records(), culprit_.data()});
+    Policy::for_each(
+        size(), Write{advance(scale, dt), scheme_, space_, particles_.records(), culprit_.data()});
     const std::uint32_t culprit = culprit_.download()[0];
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
+  }
+
+  /// How much further virtual particles move in a time than their velocity at its beginning says.
+  double motion_surplus([[maybe_unused]] double dt) {
+    if constexpr (std::is_same_v<Motion, boundary::Fixed>) {
+      return 0;
+    } else {
+      return execution::reduce<Policy>(
+                 size(), Surplus{},
+                 MotionSurplus<dim, T, Motion>{particles_.fields(), motion_, time_, dt})
+          .length;
+    }
   }
 
   void rebuild_lists(double dt) {
     const auto timer = statistics_.time(Phase::neighbours);
     ++statistics_.rebuilds;
-    const double h_max =
-        execution::reduce<Policy>(size(), Largest{}, SmoothingLength<T>{particles_.fields().h}).h;
+    const auto fields = particles_.fields();
+    const Largest widest =
+        execution::reduce<Policy>(size(), Largest{}, SmoothingLength<T>{fields.h, fields.id});
+    const double h_max = widest.h;
+    for (int k = 0; k < dim; ++k)
+      if (space_.length[k] > 0 && space_.length[k] < 2 * Scheme::Kernel::support * h_max)
+        fail("a period is shorter than two support radii", widest.id, dt);
     const auto reach = lists_.plan(dim, Scheme::Kernel::support, h_max, dt);
     if (reach.skin > reach.support * h_max)
       fail("particles may pass each other unseen within this step", step_limit(survey_, 1).id, dt);
@@ -208,6 +226,7 @@ class Fluid {
   execution::Field<std::uint32_t, Policy> culprit_{1};
   double time_ = 0;
   double last_dt_ = 0;
+  double weight_ = 0;  // of all evaluations in the rates
   double gas_mass_ = 0;
   Exchange<dim> exchange_;
 };

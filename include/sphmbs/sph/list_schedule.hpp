@@ -16,15 +16,18 @@ class ListSchedule {
   /// True where a stage at time + dt could miss a neighbour. At the beginning of a step the stages
   /// ahead are reckoned with too, so that one step uses one set of lists.
   bool outdated(double dt) const {
-    return !built_ || drift_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_) > reach_.skin;
+    return !built_ ||
+           drift_ + surplus_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_) > reach_.skin;
   }
 
   /// Rates were evaluated: pairs close in, and reaches grow, by `speed` together at most [m/s].
   void moving(double speed) { speed_ = speed; }
 
-  /// A step of length dt was taken [s].
-  void stepped(double dt) {
-    drift_ += speed_ * dt;
+  /// A step of length dt [s] was taken, in which prescribed motion went `surplus` [m] further than
+  /// its velocity at the beginning said.
+  void stepped(double dt, double surplus) {
+    drift_ += speed_ * dt + surplus;
+    surplus_ = 0;
     step_ = dt;
     lookahead_ = stage_;
     stage_ = 0;
@@ -38,7 +41,7 @@ class ListSchedule {
     const double widest = 0.13 / dim;  // of the reach: bounds the memory that lists take
     const double R = support * h_max;
     const double s = speed_ * step_;
-    const double needed = 1.05 * speed_ * std::max(dt, lookahead_);
+    const double needed = 1.05 * (speed_ * std::max(dt, lookahead_) + surplus_);
     double more = 0;  // steps beyond this one
     if (s > 0) {
       const double best = std::round(std::sqrt(listing * R / (2 * dim * s))) - 1;
@@ -51,14 +54,19 @@ class ListSchedule {
     return reach_;
   }
 
-  /// A stage at time + dt is evaluated.
-  void staged(double dt) { stage_ = std::max(stage_, dt); }
+  /// A stage at time + dt is evaluated; prescribed motion goes `surplus` [m] further until then
+  /// than its velocity says.
+  void staged(double dt, double surplus) {
+    stage_ = std::max(stage_, dt);
+    surplus_ = surplus;
+  }
 
   const neighbours::Reach& reach() const { return reach_; }
 
  private:
   neighbours::Reach reach_{};
   bool built_ = false;
+  double surplus_ = 0;    // of prescribed motion at this stage [m]
   double drift_ = 0;      // how far pairs may have closed in since the lists were made [m]
   double speed_ = 0;      // [m/s]
   double step_ = 0;       // last step [s]

@@ -68,6 +68,7 @@ struct PairTerm {
       const auto transport = scheme.stress.pair(
           scheme.eos, a, b, PairGeometry<dim, N>{inverse_r * d, (N(T(0)) - mdW) * inverse_r / b.m});
       sum.v += load * transport.v;
+      sum.power += (N(T(1)) - load) * dot(transport.v, a.v);
       sum.e += transport.e;
     }
     sum.pairs += math::select(R < N(static_cast<T>(Kernel::support)), N(T(1)), N(T(0)));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include <sphmbs/boundary/evolved.hpp>
 #include <sphmbs/eos/equation_of_state.hpp>
 #include <sphmbs/kernels/kernel.hpp>
@@ -31,6 +33,8 @@ struct RiemannSph {
   /// @throws InvalidInput where a policy's parameter is out of range.
   void check() const {
     eos.check();
+    for (int k = 0; k < dim; ++k)
+      expects(std::isfinite(acceleration[k]), "acceleration", acceleration[k], "finite [m/s^2]");
     xsph.check();
     stress.check();
   }

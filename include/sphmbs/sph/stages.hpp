@@ -28,9 +28,9 @@ struct Advance {
   particles::FieldsView<Dim, T> fields;
   particles::RatesView<Dim, T> rates;
   Motion motion;
-  T scale;  // [s]
-  T time;   // of the state y [s]
-  T dt;     // [s]
+  T scale;      // [s]
+  double time;  // of the state y [s]
+  double dt;    // [s]
 
   SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
     Stepped<Dim, T> y{fields.position(i), fields.velocity(i), fields.rho[i], fields.e[i],
@@ -64,6 +64,7 @@ struct WriteRecords {
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   Advance<dim, T, Motion> advance;
   Scheme scheme;
+  geometry::Periodicity<dim, T> space;
   T* records;
   std::uint32_t* culprit;
 
@@ -73,7 +74,7 @@ struct WriteRecords {
     const T c = scheme.eos.sound_speed(y.rho, p);
     particles::store_record<dim, T>(
         records, i,
-        {.r = y.r,
+        {.r = space.wrap(y.r),
          .v = y.v,
          .rho = y.rho,
          .p = p,
@@ -106,6 +107,30 @@ struct CommitStep {
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
     fields.h[i] = y.h;
+  }
+};
+
+/// The longest of some ways [m].
+struct Surplus {
+  double length = 0;
+  SPHMBS_INLINE void combine(const Surplus& o) { length = math::max(length, o.length); }
+};
+
+/// How far a virtual particle's prescribed way from time to time + dt departs from the way at the
+/// velocity it begins with.
+template <int Dim, class T, class Motion>
+struct MotionSurplus {
+  particles::FieldsView<Dim, T> fields;
+  Motion motion;
+  double time;  // [s]
+  double dt;    // [s]
+
+  SPHMBS_INLINE Surplus operator()(std::size_t i) const {
+    if (fields.set[i] == particles::gas) return {};
+    const Vec<Dim, T> r = fields.position(i);
+    const Vec<Dim, T> end = motion.position(fields.set[i], r, time, time + dt);
+    const Vec<Dim, T> v = motion.velocity(fields.set[i], r, time);
+    return {math::sqrt(norm2((end - r).template to<double>() - dt * v.template to<double>()))};
   }
 };
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include <sphmbs/core/expects.hpp>
-#include <sphmbs/eos/equation_of_state.hpp>
+#include <sphmbs/eos/ideal_gas.hpp>
 #include <sphmbs/particles/record.hpp>
 
 /// The shear stress of eq. (4) and the conduction of heat, as a policy.
@@ -29,7 +29,10 @@ struct Transport {
 struct Inviscid {
   static constexpr bool acts = false;
   /// Largest diffusivity of momentum or heat at a density [m^2/s].
-  double diffusivity(double) const { return 0; }
+  template <class E>
+  double diffusivity(const E&, double) const {
+    return 0;
+  }
   void check() const {}
 };
 
@@ -45,10 +48,9 @@ struct Inviscid {
 /// momentum is conserved by the second term alone.
 struct Newtonian {
   static constexpr bool acts = true;
-  double viscosity;             // mu [Pa s]
-  double conductivity = 0;      // k [W/(m K)]
-  double bulk = 0;              // zeta [Pa s]
-  double heat_capacity = 1005;  // at constant pressure, for the step limit only [J/(kg K)]
+  double viscosity;         // mu [Pa s]
+  double conductivity = 0;  // k [W/(m K)]
+  double bulk = 0;          // zeta [Pa s]
 
   /// Contribution of b to a.
   template <int Dim, class N, class T, eos::EquationOfState E>
@@ -66,9 +68,10 @@ struct Newtonian {
   }
 
   /// Largest diffusivity of momentum or heat at a density [m^2/s].
-  double diffusivity(double rho) const {
+  template <eos::EquationOfState E>
+  SPHMBS_INLINE double diffusivity(const E& eos, double rho) const {
     const double momentum = 4 * viscosity / 3 + bulk;
-    const double heat = conductivity / heat_capacity;
+    const double heat = conductivity / eos.isochoric_heat_capacity();
     return (momentum > heat ? momentum : heat) / rho;
   }
 
@@ -79,15 +82,15 @@ struct Newtonian {
     expects(conductivity >= 0, "conductivity", conductivity, "zero or positive [W/(m K)]");
     expects(bulk >= 0 && bulk <= 5 * viscosity / 3, "bulk viscosity", bulk,
             "between 0 and 5/3 of the viscosity [Pa s]");
-    expects(heat_capacity > 0, "heat_capacity", heat_capacity, "positive [J/(kg K)]");
   }
 };
 
 /// What a transport policy offers.
 template <class S>
-concept StressModel = std::is_trivially_copyable_v<S> && requires(const S stress, double rho) {
+concept StressModel = std::is_trivially_copyable_v<S> &&
+    requires(const S stress, const eos::IdealGas gas, double rho) {
   { S::acts } -> std::convertible_to<bool>;
-  { stress.diffusivity(rho) } -> std::same_as<double>;
+  { stress.diffusivity(gas, rho) } -> std::same_as<double>;
   stress.check();
 };
 

@@ -64,6 +64,7 @@ struct SurveyParticle {
   particles::FieldsView<dim, T> fields;
   particles::RatesView<dim, T> rates;
   const T* records;
+  double share;  // of one evaluation in the rates, which are a weighted sum of several [-]
 
   SPHMBS_INLINE Survey<dim> operator()(std::size_t i) const {
     const particles::Record<dim, T> s = particles::load_record<dim>(records, i);
@@ -71,11 +72,11 @@ struct SurveyParticle {
     const double h = static_cast<double>(s.h);
     const double rho = static_cast<double>(s.rho);
     const bool moves = fields.set[i] == particles::gas;
-    const Vec<dim> drift = moves ? in_double(rates.r, i) : s.v.template to<double>();
+    const Vec<dim> drift = moves ? share * in_double(rates.r, i) : s.v.template to<double>();
     const Vec<dim> v = in_double(rates.v, i);
     Survey<dim> found;
     found.slowest = found.fastest = drift;
-    found.h_rate = math::abs(static_cast<double>(rates.h[i]));
+    found.h_rate = share * math::abs(static_cast<double>(rates.h[i]));
     found.pairs = rates.pairs[i];
     const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;
     found.courant = {h / (static_cast<double>(s.c) + h * divergence), id};
@@ -84,7 +85,7 @@ struct SurveyParticle {
       found.momentum = m * s.v.template to<double>();
       found.acceleration = {math::sqrt(h / (math::sqrt(norm2(v)) + 1e-300)), id};
       if constexpr (decltype(scheme.stress)::acts)
-        found.diffusion = {h * h / (2 * scheme.stress.diffusivity(rho)), id};
+        found.diffusion = {h * h / (2 * scheme.stress.diffusivity(scheme.eos, rho)), id};
     } else {
       found.wall_force = m * v;
       found.wall_power = m * dot(v, drift);

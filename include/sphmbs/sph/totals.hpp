@@ -46,16 +46,22 @@ struct TotalsOfParticle {
   }
 };
 
-/// The largest smoothing length [m].
+/// The largest smoothing length, and the particle that has it.
 struct Largest {
-  double h = 0;
-  SPHMBS_INLINE void combine(const Largest& o) { h = math::max(h, o.h); }
+  double h = 0;  // [m]
+  std::uint32_t id = 0;
+  SPHMBS_INLINE void combine(const Largest& o) {
+    if (o.h > h) *this = o;
+  }
 };
 
 template <class T>
 struct SmoothingLength {
   const T* h;
-  SPHMBS_INLINE Largest operator()(std::size_t i) const { return {static_cast<double>(h[i])}; }
+  const std::uint32_t* id;
+  SPHMBS_INLINE Largest operator()(std::size_t i) const {
+    return {static_cast<double>(h[i]), id[i]};
+  }
 };
 
 /// Force of the gas on one set of virtual particles: m times the acceleration that eq. (21) gives

@@ -36,11 +36,11 @@ struct Mirror {
 struct Sliding {
   sphmbs::Vec<2> speed;
   template <class T>
-  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, T, T) const {
+  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, double, double) const {
     return r;
   }
   template <class T>
-  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>&, T) const {
+  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>&, double) const {
     return speed.to<T>();
   }
 };
@@ -49,11 +49,11 @@ struct Sliding {
 struct Shearing {
   double gradient;
   template <class T>
-  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, T, T) const {
+  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, double, double) const {
     return r;
   }
   template <class T>
-  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>& r, T) const {
+  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>& r, double) const {
     return {static_cast<T>(gradient) * r[1], T(0)};
   }
 };
