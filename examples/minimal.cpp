@@ -7,7 +7,7 @@
 using namespace sphmbs;
 using Gas = sph::RiemannSph<kernels::WendlandC4<2>, riemann::Acoustic, eos::IdealGas>;
 
-int main() {
+void hot_spot() {
   const double dx = 0.02;                                        // [m]
   const geometry::Box<2> box{.lower = {0, 0}, .upper = {1, 1}};  // [m]
   const geometry::Domain<2> domain{.box = box, .periodic = {true, false}};
@@ -26,7 +26,16 @@ int main() {
       fluid, time::PredictorCorrector{}, {.until = 1e-3}, [](const auto&, const sph::StepLimit&) {},
       Every(1e-4, [](auto& f) {
         const auto centre = f.sample({0.5, 0.5});
-        std::printf("t = %.1e s  p = %.4g Pa  energy %.10g J\n", f.time(), centre.p,
-                    f.totals().energy());
+        std::printf("t = %.1e s  p = %.4g Pa  energy of gas and walls %.10g J\n", f.time(),
+                    centre.p, f.totals().energy() + f.totals().virtual_internal);
       }));
+}
+
+int main() {
+  try {
+    hot_spot();
+  } catch (const Error& error) {  // one sentence: what is wrong, its value, what is allowed
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
 }

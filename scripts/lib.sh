@@ -73,6 +73,7 @@ configure() {
 build() {
   local dir=build/$1 target=()
   [ $# -lt 2 ] || target=(--target "$2")
+  [ -f "$dir/build.log" ] || echo "building in $dir, which takes a while the first time"
   if ! cmake --build "$dir" --parallel "$(nproc)" "${target[@]}" >"$dir/build.log" 2>&1; then
     cat "$dir/build.log" >&2
     fail "building ${2:-$dir} failed"
