@@ -69,15 +69,28 @@ class Every {
   double acted_ = -1;
 };
 
+/// What limits the next step where the schedule does not fix it: stability in a gas, the accuracy
+/// that an implicit integrator is given in a structure.
+template <class System>
+sph::StepLimit step_limit_of(System& system, double cfl) {
+  if constexpr (requires { system.survey(); })
+    return sph::step_limit(system.survey(), cfl);
+  else
+    return {system.suggested_step(), "accuracy", 0};
+}
+
 /// Steps a system until the end of its schedule. Observers see it at the beginning of a step, when
 /// state, rates and forces belong to the same time, and once more at the end. Steps that follow
-/// from stability limits are shortened to meet exact observers; fixed steps are not.
+/// from stability or accuracy are shortened to meet exact observers; fixed steps are not.
 /// @param report  called as report(system, StepLimit) before every step is taken
 /// @throws InvalidInput for a bad schedule; NumericalFailure from the system.
-template <class System, time::TimeIntegrator Integrator, class Report, class... Observers>
+template <class System, class Integrator, class Report, class... Observers>
 void run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
          Observers... observers) {
   schedule.check();
+  if constexpr (requires { integrator.accuracy; })
+    expects(schedule.step || integrator.accuracy, "step", "none",
+            "given [s], or the integrator has an accuracy");
   const auto observe = [&]([[maybe_unused]] bool last) { (observers.observe(system, last), ...); };
   const double close = 1e-12 * schedule.until;
   while (system.time() < schedule.until - close) {
@@ -85,7 +98,7 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
       observe(false);
       const double left = schedule.until - system.time();
       sph::StepLimit limit = schedule.step ? sph::StepLimit{*schedule.step, "fixed", 0}
-                                           : sph::step_limit(system.survey(), schedule.cfl);
+                                           : step_limit_of(system, schedule.cfl);
       double wait = left;
       if (!schedule.step) ((wait = std::min(wait, observers.barrier() - system.time())), ...);
       // Whole steps of equal length up to the next observation, instead of a short last one.
@@ -98,8 +111,10 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
       return limit.dt;
     });
   }
-  system.stage(0, 0);
-  system.rates(0);
+  if constexpr (time::ExplicitSystem<System>) {
+    system.stage(0, 0);
+    system.rates(0);
+  }
   observe(true);
 }
 

@@ -15,10 +15,11 @@ set(may_particles      core execution)
 set(may_neighbours     core execution geometry particles)
 set(may_boundary       core execution riemann geometry particles)
 set(may_sph            core execution kernels riemann eos geometry time particles neighbours boundary)
+set(may_mbs            core execution time)
 set(may_io             everything)
 set(may_top            everything)  # the headers directly below include/sphmbs
 
-set(rooms core time kernels riemann eos geometry execution particles neighbours boundary sph io top)
+set(rooms core time kernels riemann eos geometry execution particles neighbours boundary sph mbs io top)
 
 # The room of a path relative to include/.
 function(room_of path result)

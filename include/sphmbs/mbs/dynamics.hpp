@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+#include <sphmbs/mbs/energies.hpp>
+#include <sphmbs/mbs/newton.hpp>
+#include <sphmbs/mbs/reactions.hpp>
+#include <sphmbs/mbs/solvers/sparse_lu.hpp>
+#include <sphmbs/mbs/start.hpp>
+
+namespace sphmbs::mbs {
+
+/// Counts since the start.
+struct DynamicsStatistics {
+  long steps = 0, iterations = 0, factorisations = 0, halvings = 0, rejected = 0;
+};
+
+/// Largest distance that the positions among coordinates q span along an axis [m].
+template <int Dim>
+double extent(const Matrix<Dynamic, Dim>& translation, const VectorXd& q) {
+  double largest = 0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int k = 0; k < q.size(); ++k)
+      if (translation(k, axis) != 0) {
+        low = std::min(low, q[k]);
+        high = std::max(high, q[k]);
+      }
+    largest = std::max(largest, high - low);
+  }
+  return largest > 0 ? largest : 1;
+}
+
+/// A structure in motion: its equations, a consistent state, and the linear solver with its
+/// factors. Integrators move it, observers read it.
+///
+///   mbs::Dynamics system(mechanism);
+///   run(system, mbs::GeneralizedAlpha{}, {.until = 1, .step = 1e-3}, report, observers...);
+template <class Structure, solvers::LinearSolver Solver = solvers::SparseLU,
+          class Policy = execution::OpenMP>
+class Dynamics {
+ public:
+  static constexpr int dim = Structure::dim;
+  using EquationsType = Equations<Structure, Policy>;
+
+  /// Makes the initial state consistent. Keeps a reference to the structure.
+  /// @throws InvalidInput and NumericalFailure as ConsistentStart::run does.
+  explicit Dynamics(Structure& structure, const StartOptions& options = {})
+      : structure_(structure), equations_(structure) {
+    state_.q = structure.q();
+    state_.v = structure.v();
+    size_ = extent<dim>(equations_.translation(), state_.q);
+    start_ = ConsistentStart(equations_, state_, size_, options).run();
+    algorithmic_ = state_.vdot;
+    powers_ = powers_at(equations_, state_);
+    springs_at_start_ = energies_at(equations_, structure_, state_).springs;
+  }
+
+  double time() const { return state_.t; }             // [s]
+  const State& state() const { return state_; }        // q, v, vdot, lambda
+  const StartReport& start() const { return start_; }  // how the initial state was made
+  double size() const { return size_; }                // largest extent at t = 0 [m]
+  const Structure& structure() const { return structure_; }
+  EquationsType& equations() { return equations_; }
+  DynamicsStatistics statistics() const {
+    DynamicsStatistics s = statistics_;
+    s.factorisations = factors_.count();
+    return s;
+  }
+
+  /// Energies now, and what was dissipated and done since t = 0 (trapezoidal rule).
+  Energies energies() {
+    Energies e = energies_at(equations_, structure_, state_);
+    e.dissipated = dissipated_;
+    e.work = work_ + e.springs - springs_at_start_;
+    return e;
+  }
+
+  /// Multipliers of a joint or body; with redundant conditions those of the smallest norm. The
+  /// joint exerts -Phi_q^T lambda.
+  /// @param number  what Structure::add returned, or Placed::number
+  template <class T>
+  VectorXd multipliers(int number) {
+    const auto [first, count] = conditions_of<T>(structure_, equations_.layout(), number);
+    if (start_.redundant.empty()) return state_.lambda.segment(first, count);
+    return minimum_norm_multipliers(equations_, state_).segment(first, count);
+  }
+
+  /// @name For integrators
+  /// @{
+  Factors<Solver>& factors() { return factors_; }
+  DynamicsStatistics& counts() { return statistics_; }
+  /// The auxiliary acceleration of generalized-alpha [per s^2].
+  const VectorXd& algorithmic_acceleration() const { return algorithmic_; }
+  /// Step that an error estimate suggests [s]; infinite before the first one.
+  double suggested_step() const { return suggested_step_; }
+  void suggest_step(double dt) { suggested_step_ = dt; }
+
+  /// Takes a state as the one that a step has led to.
+  /// @throws NumericalFailure where a joint ends the run, or a removed condition is violated.
+  void accept(State state, VectorXd algorithmic) {
+    const double dt = state.t - state_.t;
+    state_ = std::move(state);
+    algorithmic_ = std::move(algorithmic);
+    ++statistics_.steps;
+    structure_.for_each_type([&]<class T>(auto& components) {
+      if constexpr (WatchingConstraint<T>)
+        for (auto& joint : components) joint.accept(state_.q, state_.t);
+    });
+    check_removed();
+    const Powers now = powers_at(equations_, state_);
+    dissipated_ += dt / 2 * (powers_.dissipated + now.dissipated);
+    work_ += dt / 2 * (powers_.work + now.work);
+    powers_ = now;
+  }
+  /// @}
+
+ private:
+  void check_removed() {
+    if (start_.redundant.empty()) return;
+    equations_.evaluate(state_);
+    const VectorXd phi = equations_.conditions_residual();
+    const double allowed = 1e-6 * size_;
+    for (const int k : start_.redundant)
+      if (!(std::abs(phi[k]) <= allowed)) {
+        std::ostringstream text;
+        text << "t = " << state_.t << " s: " << equations_.name_of_condition(k)
+             << ", taken for redundant at the start, is violated by " << std::abs(phi[k])
+             << ": the joints contradict each other away from the initial position.";
+        throw NumericalFailure(text.str());
+      }
+  }
+
+  Structure& structure_;
+  EquationsType equations_;
+  Factors<Solver> factors_;
+  State state_;
+  VectorXd algorithmic_;
+  StartReport start_;
+  DynamicsStatistics statistics_;
+  double size_ = 1;
+  double suggested_step_ = std::numeric_limits<double>::infinity();
+  Powers powers_;
+  double dissipated_ = 0, work_ = 0, springs_at_start_ = 0;
+};
+
+}  // namespace sphmbs::mbs

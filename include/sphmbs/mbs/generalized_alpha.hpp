@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include <sphmbs/core/error.hpp>
+#include <sphmbs/mbs/dynamics.hpp>
+
+namespace sphmbs::mbs {
+
+/// Generalized-alpha (Chung and Hulbert, J. Appl. Mech. 60, 1993) for eq. (25) as an index-3
+/// system, in the form of Arnold and Bruels (Multibody Syst. Dyn. 18, 2007): second order in q, v
+/// and lambda.
+///
+///   (1 - alpha_m) a_{n+1} + alpha_m a_n = (1 - alpha_f) vdot_{n+1} + alpha_f vdot_n
+///   q_{n+1} = q_n + h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})
+///   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
+///
+/// with vdot, lambda and Phi = 0 from eq. (25) at t_{n+1}.
+struct GeneralizedAlpha {
+  double spectral_radius = 0.8;  // at infinite frequency: 1 damps nothing, 0 at once [-]
+  Newton newton = {};
+  std::optional<double> accuracy = {};  // of a coordinate in a step [m]; without it, fixed steps
+
+  /// @throws InvalidInput for numbers out of range.
+  void check() const {
+    expects(spectral_radius >= 0 && spectral_radius <= 1, "spectral_radius", spectral_radius,
+            "between 0 and 1");
+    if (accuracy)
+      expects(std::isfinite(*accuracy) && *accuracy > 0, "accuracy", *accuracy, "positive [m]");
+    newton.check();
+  }
+
+  /// One step of at most choose_step(). Fixed steps are taken whole, in halves of halves where
+  /// Newton's method fails; with an accuracy the step is as long as the error estimate allows.
+  /// @return the length of the step [s]
+  /// @throws InvalidInput for a step that is not positive and finite; NumericalFailure where the
+  ///         shortest step fails too, naming component, residual and iterations; the system then
+  ///         still has the last good state.
+  template <class System, class ChooseStep>
+  double step(System& system, ChooseStep&& choose_step) const {
+    check();
+    const double bound = choose_step();
+    if (accuracy) return adaptive_step(system, bound);
+    expects(std::isfinite(bound) && bound > 0, "step", bound,
+            "positive and finite [s], or an accuracy is given");
+    fixed_step(system, bound, 0);
+    return bound;
+  }
+
+ private:
+  struct Coefficients {
+    double alpha_m, alpha_f, gamma, beta;
+  };
+
+  Coefficients coefficients() const {
+    const double rho = spectral_radius;
+    const double alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
+    const double gamma = 0.5 + alpha_f - alpha_m;
+    return {alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) * (gamma + 0.5)};
+  }
+
+  struct Attempt {
+    State state;
+    VectorXd algorithmic;
+    NewtonCourse course;
+  };
+
+  template <class System>
+  Attempt attempt(System& system, double h) const {
+    const auto [alpha_m, alpha_f, gamma, beta] = coefficients();
+    const MatrixWeights w{(1 - alpha_m) / (h * h * beta * (1 - alpha_f)), gamma / (h * beta)};
+    const State& old = system.state();
+    const VectorXd& a = system.algorithmic_acceleration();
+    Attempt next{old, {}, {}};
+    // The guess for vdot is that of the last step.
+    next.algorithmic =
+        (alpha_f * old.vdot - alpha_m * a + (1 - alpha_f) * old.vdot) / (1 - alpha_m);
+    next.state.t += h;
+    next.state.q += h * old.v + h * h * ((0.5 - beta) * a + beta * next.algorithmic);
+    next.state.v += h * ((1 - gamma) * a + gamma * next.algorithmic);
+    next.course =
+        newton_solve(system.equations(), system.factors(), next.state, w, newton, system.size());
+    next.algorithmic += (1 - alpha_f) / (1 - alpha_m) * (next.state.vdot - old.vdot);
+    system.counts().iterations += static_cast<long>(next.course.iterations.size());
+    return next;
+  }
+
+  // Factors of an earlier state may mislead Newton's method: it has a second try with new ones.
+  template <class System>
+  Attempt attempt_twice(System& system, double h) const {
+    Attempt first = attempt(system, h);
+    if (first.course.converged || first.course.singular) return first;
+    system.factors().forget();
+    return attempt(system, h);
+  }
+
+  template <class System>
+  void fixed_step(System& system, double h, int halvings) const {
+    Attempt next = attempt_twice(system, h);
+    if (next.course.converged) {
+      system.accept(std::move(next.state), std::move(next.algorithmic));
+      return;
+    }
+    if (halvings >= newton.max_halvings) fail(system, next, h);
+    ++system.counts().halvings;
+    fixed_step(system, h / 2, halvings + 1);
+    fixed_step(system, h / 2, halvings + 1);
+  }
+
+  // Error of a step: |beta - 1/6| h^2 |a_{n+1} - a_n| (Zienkiewicz and Xie, Earthq. Eng. Struct.
+  // Dyn. 20, 1991); it falls with h^3.
+  template <class System>
+  double adaptive_step(System& system, double bound) const {
+    const double beta = coefficients().beta;
+    const VectorXd& a = system.algorithmic_acceleration();
+    double h = std::min(bound, system.suggested_step());
+    if (!std::isfinite(system.suggested_step())) {
+      const double largest = a.cwiseAbs().maxCoeff();
+      if (largest > 0) h = std::min(h, std::sqrt(*accuracy / largest));
+    }
+    expects(std::isfinite(h) && h > 0, "step", h, "positive and finite [s]");
+    for (int failures = 0;;) {
+      Attempt next = attempt_twice(system, h);
+      double ratio = 0.5;
+      if (next.course.converged) {
+        double error = 0;
+        const std::vector<Role>& roles = system.equations().roles();
+        for (int k = 0; k < a.size(); ++k)
+          if (roles[static_cast<std::size_t>(k)] == Role::massive)
+            error = std::max(error, std::abs(next.algorithmic[k] - a[k]));
+        error *= std::abs(beta - 1.0 / 6) * h * h;
+        ratio = std::clamp(0.9 * std::cbrt(*accuracy / std::max(error, 1e-300)), 0.2, 2.0);
+        if (error <= *accuracy) {
+          // Equal steps keep factors in use.
+          system.suggest_step(ratio > 0.95 && ratio < 1.2 ? h : ratio * h);
+          system.accept(std::move(next.state), std::move(next.algorithmic));
+          return h;
+        }
+        ++system.counts().rejected;
+      } else {
+        if (++failures > newton.max_halvings) fail(system, next, h);
+        ++system.counts().halvings;
+      }
+      h *= std::min(ratio, 0.9);
+    }
+  }
+
+  template <class System>
+  [[noreturn]] void fail(System& system, const Attempt& failed, double h) const {
+    std::ostringstream text;
+    text << "Generalized-alpha: Newton's method does not converge at t = " << failed.state.t
+         << " s with a step of " << h << " s, after " << newton.max_halvings << " halvings";
+    if (failed.course.singular) text << "; the iteration matrix is singular";
+    if (!failed.course.iterations.empty()) {
+      const NewtonIteration& last = failed.course.iterations.back();
+      text << "; the largest residual, " << last.residual << ", is in "
+           << system.equations().name_of(last.worst);
+    }
+    text << ". Try a shorter step, a smaller spectral_radius, or check that joints do not lock.\n"
+         << failed.course.table();
+    throw NumericalFailure(text.str());
+  }
+};
+
+}  // namespace sphmbs::mbs

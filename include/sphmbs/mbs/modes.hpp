@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <sphmbs/core/error.hpp>
+#include <sphmbs/mbs/equations.hpp>
+
+namespace sphmbs::mbs {
+
+/// Small vibrations about a state.
+struct Modes {
+  VectorXd squares;  // omega^2, ascending; near zero: free motion; negative: unstable [rad^2/s^2]
+  MatrixXd shapes;   // one column a mode, over all coordinates, of unit modal mass
+
+  /// omega of the k-th mode; 0 where its square is not positive [rad/s]
+  double frequency(int k) const { return std::sqrt(std::max(0.0, squares[k])); }
+};
+
+/// Eigenfrequencies of eq. (25) linearised about a state at rest, on the motions that conditions
+/// leave: Z^T (K + d(Phi_q^T lambda)/dq) Z x = omega^2 Z^T M Z x with Phi_q Z = 0. Damping does not
+/// enter; of an unsymmetric stiffness the symmetric half is taken. Dense: memory grows with the
+/// square and time with the cube of the coordinates, seconds for 1000, minutes for 4000.
+/// @param state  with the multipliers of an equilibrium, such as that of equilibrium()
+/// @throws InvalidInput beyond 6000 coordinates; NumericalFailure where a motion has no mass.
+template <class Structure>
+Modes eigenmodes(Structure& structure, const State& state) {
+  constexpr int most = 6000;
+  const int n = structure.coordinates();
+  expects(n <= most, "number of coordinates", n, "at most 6000 for the dense eigenvalue problem");
+  Equations<Structure> equations(structure);
+  equations.relocate(state.q);
+  const MatrixWeights weights{0, 0};
+  equations.evaluate(state, &weights);
+  SparseMatrix A;
+  equations.matrix(weights, A);
+  const MatrixXd K = MatrixXd(A).topLeftCorner(n, n);
+  MatrixXd Z = MatrixXd::Identity(n, n);
+  if (equations.conditions() > 0) {
+    MatrixXd Bt = MatrixXd(equations.jacobian()).transpose();
+    Bt.colwise().normalize();
+    Eigen::ColPivHouseholderQR<MatrixXd> qr;
+    qr.setThreshold(1e-9);
+    qr.compute(Bt);
+    const MatrixXd Q = qr.householderQ();
+    Z = Q.rightCols(n - qr.rank());
+  }
+  const MatrixXd Kz = Z.transpose() * (0.5 * (K + K.transpose())) * Z;
+  const MatrixXd Mz = Z.transpose() * (equations.mass() * Z);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(Kz, Mz);
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
+    throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.");
+  return {solver.eigenvalues(), Z * solver.eigenvectors()};
+}
+
+}  // namespace sphmbs::mbs

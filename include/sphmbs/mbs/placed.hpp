@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include <sphmbs/mbs/marker.hpp>
+#include <sphmbs/mbs/part.hpp>
+
+namespace sphmbs::mbs {
+
+/// Where the coordinates of a node begin in q, and how many there are.
+struct Node {
+  int offset;
+  int size;
+};
+
+/// A part in its place in a structure: which coordinates are its own. It gives the markers that
+/// joints, loads and sensors are made of.
+template <Part P>
+struct Placed {
+  P part;
+  std::array<Node, P::nodes> nodes;
+  int number;  // among the parts of this type, from 0
+
+  Index index() const {
+    Index all;
+    all.reserve(P::dofs);
+    for (const Node& node : nodes)
+      for (int k = 0; k < node.size; ++k) all.push_back(node.offset + k);
+    return all;
+  }
+
+  /// Own coordinates, out of all coordinates q of the structure.
+  Vector<P::dofs> local(const VectorXd& q) const {
+    Vector<P::dofs> own;
+    for (int i = 0; i < P::nodes; ++i)
+      own.template segment<P::node_dofs>(i * P::node_dofs) =
+          q.segment<P::node_dofs>(nodes[static_cast<std::size_t>(i)].offset);
+    return own;
+  }
+
+  /// The material point X.
+  Marker<P::dim> point(const typename P::Material& X) const { return marker(part.shape(X)); }
+
+  /// The material vector from `from` to `to`: of a rigid body, a direction fixed to it.
+  Marker<P::dim> vector(const typename P::Material& from, const typename P::Material& to) const {
+    return marker(part.shape(to) - part.shape(from));
+  }
+
+  /// The gradient dr/dX_k at X: of a cable, the tangent; of a plate, a vector along a material
+  /// line.
+  Marker<P::dim> gradient(const typename P::Material& X, int k) const requires requires(const P p) {
+    p.shape_gradient(X, k);
+  }
+  { return marker(part.shape_gradient(X, k)); }
+
+  Marker<P::dim> start() const requires requires(const P p) { p.start(); }
+  { return point(part.start()); }
+  Marker<P::dim> end() const requires requires(const P p) { p.end(); }
+  { return point(part.end()); }
+
+ private:
+  // Coordinates that do not move the marker are left out: those of the other nodes, at a node.
+  Marker<P::dim> marker(const Matrix<P::dim, P::dofs>& N) const {
+    constexpr double nothing = 1e-14;
+    const double size = N.cwiseAbs().maxCoeff();
+    const Index own = index();
+    std::vector<int> kept;
+    for (int k = 0; k < P::dofs; ++k)
+      if (N.col(k).cwiseAbs().maxCoeff() > nothing * size) kept.push_back(k);
+    Marker<P::dim> m{.N = N(Eigen::all, kept)};
+    for (const int k : kept) m.index.push_back(own[static_cast<std::size_t>(k)]);
+    return m;
+  }
+};
+
+}  // namespace sphmbs::mbs

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <Eigen/SparseLU>
+
+#include <sphmbs/mbs/equations.hpp>
+#include <sphmbs/mbs/equilibrate.hpp>
+#include <sphmbs/mbs/redundancy.hpp>
+
+namespace sphmbs::mbs {
+
+/// What to do with conditions that hold what others hold already.
+enum class Redundant { remove, refuse };
+
+/// How an initial state may deviate from its conditions, and what is done about it.
+struct StartOptions {
+  double position_tolerance = 1e-6;  // on Phi, over the structure's size [-]
+  double velocity_tolerance = 1e-3;  // on dPhi/dt, over the largest rate or the size a second [-]
+  Redundant redundant = Redundant::remove;
+};
+
+/// What was done to make the initial state consistent.
+struct StartReport {
+  double position_correction = 0;       // largest change of a coordinate
+  double velocity_correction = 0;       // largest change of a rate
+  std::vector<int> redundant = {};      // conditions removed
+  std::vector<std::string> notes = {};  // the same for people, a sentence each
+};
+
+/// Makes a state consistent: Phi = 0, Phi_q v + Phi_t = 0, and accelerations and multipliers from
+/// eq. (25). Positions and velocities are projected along M^-1 Phi_q^T, the smallest change in the
+/// norm of the kinetic energy.
+template <class System>
+class ConsistentStart {
+ public:
+  ConsistentStart(System& equations, State& state, double size, const StartOptions& options)
+      : equations_(equations), state_(state), size_(size), options_(options) {}
+
+  /// @throws InvalidInput for a state beyond the tolerances, for contradictory conditions, and for
+  ///         redundant ones where options refuse them; NumericalFailure for a singular mass.
+  StartReport run() {
+    place();
+    project_velocities();
+    find_accelerations();
+    return report_;
+  }
+
+  /// Redundancy and positions only, as statics needs them.
+  /// @throws as run()
+  StartReport place() {
+    relocate();
+    check_positions();
+    find_redundant();
+    project_positions();
+    return report_;
+  }
+
+ private:
+  using LU = Eigen::SparseLU<SparseMatrix>;
+
+  void relocate() {
+    equations_.relocate(state_.q);
+    state_.lambda = VectorXd::Zero(equations_.conditions());
+    equations_.evaluate(state_);
+  }
+
+  void find_redundant() {
+    // Dependence shows up to the error of positions that are still to be projected.
+    const VectorXd phi = equations_.conditions_residual();
+    if (phi.size() == 0) return;
+    const double error = 100 * phi.cwiseAbs().maxCoeff() / size_;
+    report_.redundant = redundant_rows(equations_.jacobian(), std::max(1e-9, error));
+    if (report_.redundant.empty()) return;
+    const std::string text =
+        std::to_string(report_.redundant.size()) +
+        " redundant condition(s), already held by others: " + names(report_.redundant);
+    if (options_.redundant == Redundant::refuse) throw InvalidInput(text);
+    report_.notes.push_back(text + "; removed");
+    equations_.remove(report_.redundant);
+  }
+
+  void check_positions() const {
+    const double allowed = options_.position_tolerance * size_;
+    const VectorXd phi = equations_.conditions_residual();
+    for (int k = 0; k < phi.size(); ++k)
+      if (!(std::abs(phi[k]) <= allowed)) refuse("positions", k, phi[k], allowed);
+  }
+
+  void project_positions() {
+    int worst = 0;
+    const VectorXd start = state_.q;
+    VectorXd phi = equations_.conditions_residual();
+    if (phi.size() == 0) return;
+    const double rounding = 1e-14 * size_;
+    for (int k = 0; k < 10 && kept(phi).cwiseAbs().maxCoeff() > rounding; ++k) {
+      state_.q += solve(VectorXd::Zero(state_.q.size()), -kept(phi)).head(state_.q.size());
+      relocate();
+      phi = equations_.conditions_residual();
+    }
+    if (phi.cwiseAbs().maxCoeff(&worst) > 1e-10 * size_) contradiction(worst, phi[worst]);
+    report_.position_correction = (state_.q - start).cwiseAbs().maxCoeff();
+    if (report_.position_correction > 1e-12 * size_)
+      note("initial positions", report_.position_correction);
+  }
+
+  void project_velocities() {
+    const SparseMatrix B = equations_.jacobian();
+    if (B.rows() == 0) return;
+    VectorXd rate = B * state_.v + partial_rate();
+    const double scale = std::max(state_.v.cwiseAbs().maxCoeff(), size_);
+    const double allowed = options_.velocity_tolerance * scale;
+    int worst = 0;
+    if (rate.cwiseAbs().maxCoeff(&worst) > allowed)
+      refuse("velocities", worst, rate[worst], allowed);
+    const VectorXd start = state_.v;
+    state_.v += solve(VectorXd::Zero(start.size()), -kept(rate)).head(start.size());
+    rate = B * state_.v + partial_rate();
+    if (rate.cwiseAbs().maxCoeff(&worst) > 1e-8 * scale) contradiction(worst, rate[worst]);
+    report_.velocity_correction = (state_.v - start).cwiseAbs().maxCoeff();
+    if (report_.velocity_correction > 1e-12 * scale)
+      note("initial velocities", report_.velocity_correction);
+  }
+
+  void find_accelerations() {
+    equations_.evaluate(state_);
+    VectorXd residual;
+    const int n = static_cast<int>(state_.q.size());
+    equations_.residual(VectorXd::Zero(n), residual);
+    const VectorXd x = solve(-residual.head(n), -kept(curvature()));
+    state_.vdot = x.head(n);
+    state_.lambda = x.tail(equations_.conditions());
+  }
+
+  // [M, Phi_q^T; Phi_q, 0] x = [force, conditions], at the state.
+  VectorXd solve(const VectorXd& force, const VectorXd& conditions) {
+    const int n = equations_.coordinates(), m = equations_.conditions();
+    std::vector<Eigen::Triplet<double>> entries;
+    const SparseMatrix& M = equations_.mass();
+    for (int j = 0; j < n; ++j)
+      for (SparseMatrix::InnerIterator e(M, j); e; ++e)
+        entries.emplace_back(static_cast<int>(e.row()), j, e.value());
+    const SparseMatrix B = equations_.jacobian();
+    for (int j = 0; j < n; ++j)
+      for (SparseMatrix::InnerIterator e(B, j); e; ++e) {
+        const int i = static_cast<int>(e.row());
+        if (equations_.removed(i)) continue;
+        entries.emplace_back(n + i, j, e.value());
+        entries.emplace_back(j, n + i, e.value());
+      }
+    for (int i = 0; i < m; ++i)
+      if (equations_.removed(i)) entries.emplace_back(n + i, n + i, 1.0);
+    SparseMatrix A(n + m, n + m);
+    A.setFromTriplets(entries.begin(), entries.end());
+    const VectorXd D = equilibrate(A, equations_.roles());
+    LU lu(A);
+    VectorXd b(n + m);
+    b << force, conditions;
+    b = D.cwiseProduct(b);
+    VectorXd x = VectorXd::Constant(n + m, std::numeric_limits<double>::quiet_NaN());
+    if (lu.info() == Eigen::Success) x = D.cwiseProduct(VectorXd(lu.solve(b)));
+    if (!x.allFinite())
+      throw NumericalFailure(
+          "The mass matrix together with the conditions is singular at t = 0: a coordinate has "
+          "neither mass nor a condition that determines it; give it mass or a joint.");
+    return x;
+  }
+
+  VectorXd partial_rate() {
+    return by_constraint(
+        [](const auto& joint, const Local& x, VectorOut out) { joint.rate(x.q, x.t, out); });
+  }
+
+  // (Phi_q v)_q v + 2 Phi_qt v + Phi_tt.
+  VectorXd curvature() {
+    VectorXd result = by_constraint([](const auto& joint, const Local& x, VectorOut out) {
+      joint.acceleration(x.q, x.v, x.t, out);
+    });
+    equations_.for_each_component(
+        state_, [&]<class T>(const auto& component, const Slot& slot, const Local& x) {
+          if constexpr (Body<T> || Constraint<T>)
+            for (int i = 0; i < slot.m; ++i) {
+              const VectorXd unit = VectorXd::Unit(slot.m, i);
+              MatrixXd H = MatrixXd::Zero(slot.n, slot.n);
+              if constexpr (Body<T>)
+                H = component.part.rigidity_hessian(Vector<T::conditions>(unit));
+              else
+                component.add_hessian(x.q, x.t, unit, H);
+              result[slot.first_condition + i] += x.v.dot(H * x.v);
+            }
+        });
+    return result;
+  }
+
+  template <class Function>
+  VectorXd by_constraint(const Function& function) {
+    VectorXd result = VectorXd::Zero(equations_.conditions());
+    equations_.for_each_component(
+        state_, [&]<class T>(const auto& component, const Slot& slot, const Local& x) {
+          if constexpr (Constraint<T>)
+            function(component, x, result.segment(slot.first_condition, slot.m));
+        });
+    return result;
+  }
+
+  VectorXd kept(VectorXd conditions) const {
+    for (int i = 0; i < conditions.size(); ++i)
+      if (equations_.removed(i)) conditions[i] = 0;
+    return conditions;
+  }
+
+  std::string name(int condition) const { return equations_.name_of_condition(condition); }
+
+  std::string names(const std::vector<int>& conditions) const {
+    std::string list, last;
+    for (const int k : conditions) {
+      const std::string own = name(k);
+      if (own != last) list += (list.empty() ? "" : ", ") + own;
+      last = own;
+    }
+    return list;
+  }
+
+  [[noreturn]] void refuse(const std::string& what, int condition, double value,
+                           double allowed) const {
+    std::ostringstream text;
+    text << "Initial " << what << " violate " << name(condition) << " by " << std::abs(value)
+         << ": at most " << allowed << " is projected away.";
+    throw InvalidInput(text.str());
+  }
+
+  [[noreturn]] void contradiction(int condition, double value) const {
+    std::ostringstream text;
+    text << name(condition) << " contradicts other conditions: " << std::abs(value)
+         << " remains after projection.";
+    throw InvalidInput(text.str());
+  }
+
+  void note(const std::string& what, double size) {
+    std::ostringstream text;
+    text << what << " projected onto the conditions: largest change " << size;
+    report_.notes.push_back(text.str());
+  }
+
+  System& equations_;
+  State& state_;
+  double size_;
+  StartOptions options_;
+  StartReport report_;
+};
+
+}  // namespace sphmbs::mbs
