@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 #include <sphmbs/core/error.hpp>
@@ -22,6 +23,13 @@ std::string complaint(Action&& action) {
 template <class Action>
 std::string refusal(Action&& action) {
   return complaint<sphmbs::InvalidInput>(action);
+}
+
+/// Whether a text has all the words.
+inline bool mentions(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (text.find(word) == std::string::npos) return false;
+  return true;
 }
 
 }  // namespace test

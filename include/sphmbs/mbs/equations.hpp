@@ -132,6 +132,17 @@ class Equations {
     return B;
   }
 
+  /// Phi_q x with Phi_q of the last evaluate(), removed rows included.
+  VectorXd jacobian_times(const VectorXd& x) const {
+    VectorXd product = VectorXd::Zero(conditions());
+    for (const Slot& slot : layout_.slots)
+      for (int j = 0; j < slot.n; ++j)
+        for (int i = 0; i < slot.m; ++i)
+          product[slot.first_condition + i] +=
+              matrices_[slot.at_B() + as_size(j * slot.m + i)] * x[layout_.own(slot)[j]];
+    return product;
+  }
+
   /// Phi of the last evaluate(), removed rows included.
   VectorXd conditions_residual() const {
     VectorXd phi(conditions());

@@ -16,10 +16,14 @@ namespace sphmbs::mbs {
 ///   q_{n+1} = q_n + h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})
 ///   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
 ///
-/// with vdot, lambda and Phi = 0 from eq. (25) at t_{n+1}.
+/// with vdot, lambda and Phi = 0 from eq. (25) at t_{n+1}. Without numerical damping, errors of
+/// multipliers and of velocities across the conditions would grow from step to step (Cardona and
+/// Geradin, Comput. Struct. 33, 1989); they are therefore projected onto dPhi/dt = 0 and
+/// d2Phi/dt2 = 0 after each step where the spectral radius is above `project_above`.
 struct GeneralizedAlpha {
   double spectral_radius = 0.8;  // at infinite frequency: 1 damps nothing, 0 at once [-]
   Newton newton = {};
+  double project_above = 0.95;          // spectral radius [-]
   std::optional<double> accuracy = {};  // of a coordinate in a step [m]; without it, fixed steps
 
   /// @throws InvalidInput for numbers out of range.
@@ -28,6 +32,7 @@ struct GeneralizedAlpha {
             "between 0 and 1");
     if (accuracy)
       expects(std::isfinite(*accuracy) && *accuracy > 0, "accuracy", *accuracy, "positive [m]");
+    expects(!std::isnan(project_above), "project_above", project_above, "a number");
     newton.check();
   }
 
@@ -82,8 +87,34 @@ struct GeneralizedAlpha {
     next.course =
         newton_solve(system.equations(), system.factors(), next.state, w, newton, system.size());
     next.algorithmic += (1 - alpha_f) / (1 - alpha_m) * (next.state.vdot - old.vdot);
+    if (next.course.converged && spectral_radius > project_above) project(system, next, w);
     system.counts().iterations += static_cast<long>(next.course.iterations.size());
     return next;
+  }
+
+  // In the metric of the iteration matrix at the new state: with that of an earlier one, corrections
+  // across the conditions of then would have a part along those of now, and add up.
+  template <class System>
+  static void project(System& system, Attempt& next, const MatrixWeights& w) {
+    auto& equations = system.equations();
+    auto& factors = system.factors();
+    State& state = next.state;
+    const int n = equations.coordinates(), m = equations.conditions();
+    if (m == 0) return;
+    equations.evaluate(state, &w);
+    VectorXd residual = VectorXd::Zero(n + m), x;
+    residual.tail(m) = without_removed(equations, rate_of_conditions(equations, state));
+    if (!factors.compute(equations, w) || !factors.correct(residual, x)) {
+      next.course.singular = true;
+      next.course.converged = false;
+      return;
+    }
+    state.v += x.head(n);
+    residual.tail(m) = without_removed(equations, acceleration_of_conditions(equations, state));
+    factors.correct(residual, x);
+    state.vdot += x.head(n);
+    next.algorithmic += x.head(n);
+    state.lambda += x.tail(m) / w.mass;
   }
 
   // Factors of an earlier state may mislead Newton's method: it has a second try with new ones.

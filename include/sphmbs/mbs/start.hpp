@@ -8,8 +8,8 @@
 
 #include <Eigen/SparseLU>
 
-#include <sphmbs/mbs/equations.hpp>
 #include <sphmbs/mbs/equilibrate.hpp>
+#include <sphmbs/mbs/kinematics.hpp>
 #include <sphmbs/mbs/redundancy.hpp>
 
 namespace sphmbs::mbs {
@@ -109,9 +109,8 @@ class ConsistentStart {
   }
 
   void project_velocities() {
-    const SparseMatrix B = equations_.jacobian();
-    if (B.rows() == 0) return;
-    VectorXd rate = B * state_.v + partial_rate();
+    if (equations_.conditions() == 0) return;
+    VectorXd rate = rate_of_conditions(equations_, state_);
     const double scale = std::max(state_.v.cwiseAbs().maxCoeff(), size_);
     const double allowed = options_.velocity_tolerance * scale;
     int worst = 0;
@@ -119,7 +118,7 @@ class ConsistentStart {
       refuse("velocities", worst, rate[worst], allowed);
     const VectorXd start = state_.v;
     state_.v += solve(VectorXd::Zero(start.size()), -kept(rate)).head(start.size());
-    rate = B * state_.v + partial_rate();
+    rate = rate_of_conditions(equations_, state_);
     if (rate.cwiseAbs().maxCoeff(&worst) > 1e-8 * scale) contradiction(worst, rate[worst]);
     report_.velocity_correction = (state_.v - start).cwiseAbs().maxCoeff();
     if (report_.velocity_correction > 1e-12 * scale)
@@ -131,7 +130,9 @@ class ConsistentStart {
     VectorXd residual;
     const int n = static_cast<int>(state_.q.size());
     equations_.residual(VectorXd::Zero(n), residual);
-    const VectorXd x = solve(-residual.head(n), -kept(curvature()));
+    state_.vdot = VectorXd::Zero(n);
+    const VectorXd x =
+        solve(-residual.head(n), -kept(acceleration_of_conditions(equations_, state_)));
     state_.vdot = x.head(n);
     state_.lambda = x.tail(equations_.conditions());
   }
@@ -170,47 +171,8 @@ class ConsistentStart {
     return x;
   }
 
-  VectorXd partial_rate() {
-    return by_constraint(
-        [](const auto& joint, const Local& x, VectorOut out) { joint.rate(x.q, x.t, out); });
-  }
-
-  // (Phi_q v)_q v + 2 Phi_qt v + Phi_tt.
-  VectorXd curvature() {
-    VectorXd result = by_constraint([](const auto& joint, const Local& x, VectorOut out) {
-      joint.acceleration(x.q, x.v, x.t, out);
-    });
-    equations_.for_each_component(
-        state_, [&]<class T>(const auto& component, const Slot& slot, const Local& x) {
-          if constexpr (Body<T> || Constraint<T>)
-            for (int i = 0; i < slot.m; ++i) {
-              const VectorXd unit = VectorXd::Unit(slot.m, i);
-              MatrixXd H = MatrixXd::Zero(slot.n, slot.n);
-              if constexpr (Body<T>)
-                H = component.part.rigidity_hessian(Vector<T::conditions>(unit));
-              else
-                component.add_hessian(x.q, x.t, unit, H);
-              result[slot.first_condition + i] += x.v.dot(H * x.v);
-            }
-        });
-    return result;
-  }
-
-  template <class Function>
-  VectorXd by_constraint(const Function& function) {
-    VectorXd result = VectorXd::Zero(equations_.conditions());
-    equations_.for_each_component(
-        state_, [&]<class T>(const auto& component, const Slot& slot, const Local& x) {
-          if constexpr (Constraint<T>)
-            function(component, x, result.segment(slot.first_condition, slot.m));
-        });
-    return result;
-  }
-
   VectorXd kept(VectorXd conditions) const {
-    for (int i = 0; i < conditions.size(); ++i)
-      if (equations_.removed(i)) conditions[i] = 0;
-    return conditions;
+    return without_removed(equations_, std::move(conditions));
   }
 
   std::string name(int condition) const { return equations_.name_of_condition(condition); }
