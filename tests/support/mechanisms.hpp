@@ -3,6 +3,7 @@
 
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/joints/pinned.hpp>
+#include <sphmbs/mbs/joints/revolute.hpp>
 #include <sphmbs/mbs/ncf/bar.hpp>
 
 /// Small mechanisms that several tests share.

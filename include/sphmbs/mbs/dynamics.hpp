@@ -84,7 +84,7 @@ class Dynamics {
   VectorXd multipliers(int number) {
     const auto [first, count] = conditions_of<T>(structure_, equations_.layout(), number);
     if (start_.redundant.empty()) return state_.lambda.segment(first, count);
-    return minimum_norm_multipliers(equations_, state_).segment(first, count);
+    return minimum_norm_multipliers(equations_, state_, start_.redundant).segment(first, count);
   }
 
   /// @name For integrators

@@ -1,22 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/QR>
+#include <Eigen/SparseLU>
 
 #include <sphmbs/mbs/equations.hpp>
 
 namespace sphmbs::mbs {
 
 /// Multipliers with the same reaction force Phi_q^T lambda and the smallest norm: where redundant
-/// conditions share a load, they share it evenly. Dense in the conditions: for up to some hundreds.
+/// conditions share a load, they share it evenly. Each removed row of Phi_q is a combination of the
+/// kept ones; lambda is made orthogonal to these dependences.
+/// @param removed  the redundant conditions, without which Phi_q has full rank
 template <class System>
-VectorXd minimum_norm_multipliers(System& equations, const State& state) {
+VectorXd minimum_norm_multipliers(System& equations, const State& state,
+                                  const std::vector<int>& removed) {
+  const int n = equations.coordinates(), m = equations.conditions();
   equations.evaluate(state);
-  const MatrixXd Bt = MatrixXd(equations.jacobian()).transpose();
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod;
-  cod.setThreshold(1e-9);
-  cod.compute(Bt);
-  return cod.solve(Bt * state.lambda);
+  const SparseMatrix columns = equations.jacobian().transpose();
+  // [1, B^T; B, 0] [x; w] = [b, 0] with the kept rows B gives B^T w = b for a removed row b.
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < n; ++k) entries.emplace_back(k, k, 1.0);
+  for (int i = 0; i < m; ++i) {
+    if (equations.removed(i)) entries.emplace_back(n + i, n + i, 1.0);
+    for (SparseMatrix::InnerIterator e(columns, i); e && !equations.removed(i); ++e) {
+      entries.emplace_back(n + i, static_cast<int>(e.row()), e.value());
+      entries.emplace_back(static_cast<int>(e.row()), n + i, e.value());
+    }
+  }
+  SparseMatrix A(n + m, n + m);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<SparseMatrix> lu(A);
+  VectorXd lambda = state.lambda;
+  std::vector<VectorXd> dependences;
+  for (const int i : removed) {
+    VectorXd b = VectorXd::Zero(n + m);
+    b.head(n) = columns.col(i);
+    VectorXd z = VectorXd(lu.solve(b)).tail(m);
+    z[i] = -1;
+    for (const VectorXd& other : dependences) z -= other.dot(z) * other;
+    z.normalize();
+    lambda -= z.dot(lambda) * z;
+    dependences.push_back(std::move(z));
+  }
+  return lambda;
 }
 
 }  // namespace sphmbs::mbs
