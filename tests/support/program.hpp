@@ -135,17 +135,22 @@ inline Table table_of(const std::filesystem::path& path) {
   return table;
 }
 
-/// The times of a fields.pvd and the files they belong to.
-inline std::map<double, std::string> fields_of(const std::filesystem::path& folder) {
+/// The times of a list of files, a .pvd, and the files they belong to.
+inline std::map<double, std::string> files_of(const std::filesystem::path& list) {
   std::map<double, std::string> files;
   const auto value = [](const std::string& line, const std::string& key) {
     const std::size_t from = line.find(key + "=\"") + key.size() + 2;
     return line.substr(from, line.find('"', from) - from);
   };
-  for (const std::string& line : lines_of(text_of(folder / "fields.pvd")))
+  for (const std::string& line : lines_of(text_of(list)))
     if (line.find("<DataSet ") != std::string::npos)
       files[std::stod(value(line, "timestep"))] = value(line, "file");
   return files;
+}
+
+/// Those of a run of gas.
+inline std::map<double, std::string> fields_of(const std::filesystem::path& folder) {
+  return files_of(folder / "fields.pvd");
 }
 
 /// Particles in a .vtp file, from its head; throws std::runtime_error if it is cut short.
