@@ -125,16 +125,23 @@ class ConsistentStart {
       note("initial velocities", report_.velocity_correction);
   }
 
+  // Friction depends on the multipliers, which are therefore found by repetition.
   void find_accelerations() {
-    equations_.evaluate(state_);
-    VectorXd residual;
+    constexpr int repetitions = 50;
     const int n = static_cast<int>(state_.q.size());
-    equations_.residual(VectorXd::Zero(n), residual);
     state_.vdot = VectorXd::Zero(n);
-    const VectorXd x =
-        solve(-residual.head(n), -kept(acceleration_of_conditions(equations_, state_)));
-    state_.vdot = x.head(n);
-    state_.lambda = x.tail(equations_.conditions());
+    VectorXd residual;
+    for (int k = 0; k < repetitions; ++k) {
+      equations_.evaluate(state_);
+      equations_.residual(VectorXd::Zero(n), residual);
+      state_.vdot.setZero();
+      const VectorXd conditions = kept(acceleration_of_conditions(equations_, state_));
+      const VectorXd x = solve(-residual.head(n), -conditions);
+      state_.vdot = x.head(n);
+      const VectorXd change = x.tail(equations_.conditions());
+      state_.lambda += change;
+      if (change.norm() <= 1e-12 * state_.lambda.norm()) break;
+    }
   }
 
   // [M, Phi_q^T; Phi_q, 0] x = [force, conditions], at the state.

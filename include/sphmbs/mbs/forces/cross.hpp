@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sphmbs/mbs/types.hpp>
+
+namespace sphmbs::mbs::forces {
+
+/// The matrix of the cross product: skew(a) b = a x b.
+inline Matrix<3, 3> skew(const Vector<3>& a) {
+  Matrix<3, 3> S;
+  S << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return S;
+}
+
+/// A planar vector turned by a quarter turn, counter-clockwise.
+inline Vector<2> quarter_turn(const Vector<2>& a) { return {-a[1], a[0]}; }
+
+/// A direction u / |u| and its derivative in u.
+template <int Dim>
+struct Direction {
+  Vector<Dim> along;
+  Matrix<Dim, Dim> slope;
+
+  Direction(const Vector<Dim>& u, double length)
+      : along(u / length),
+        slope((Matrix<Dim, Dim>::Identity() - along * along.transpose()) / length) {}
+};
+
+}  // namespace sphmbs::mbs::forces
