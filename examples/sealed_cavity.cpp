@@ -5,8 +5,8 @@
 
 #include "reference/sealed_cavity_curves.hpp"
 #include "support/backends.hpp"
+#include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
-#include "support/session.hpp"
 
 using namespace sphmbs;
 using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas>;

@@ -5,8 +5,8 @@
 
 #include "reference/shock_tube_curves.hpp"
 #include "support/backends.hpp"
+#include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
-#include "support/session.hpp"
 
 using namespace sphmbs;
 constexpr int dim = SHOCK_TUBE_DIM;

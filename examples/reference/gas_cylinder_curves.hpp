@@ -9,7 +9,7 @@
 #include <sphmbs/geometry/lattice.hpp>
 
 #include "reference/gas_cylinder.hpp"
-#include "support/session.hpp"
+#include "support/gas_session.hpp"
 
 namespace sphmbs::examples {
 

@@ -7,7 +7,7 @@
 #include <sphmbs/boundary/motion.hpp>
 
 #include "reference/sealed_cavity.hpp"
-#include "support/session.hpp"
+#include "support/gas_session.hpp"
 
 namespace sphmbs::examples {
 

@@ -11,7 +11,7 @@
 #include <sphmbs/particles/cloud.hpp>
 #include <sphmbs/riemann/exact_solution.hpp>
 
-#include "support/session.hpp"
+#include "support/gas_session.hpp"
 
 namespace sphmbs::examples {
 

@@ -32,8 +32,7 @@ int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
   } catch (const OutputError& error) {
     return end_with(ExitCode::output_failed, error.what());
   } catch (const std::bad_alloc&) {
-    return end_with(ExitCode::out_of_memory,
-                    "out of memory; a larger --spacing means fewer particles");
+    return end_with(ExitCode::out_of_memory, "out of memory; " + command_line.memory_advice());
   } catch (const std::exception& error) {
     return end_with(ExitCode::internal_error, error.what());
   } catch (...) {

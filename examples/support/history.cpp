@@ -82,4 +82,41 @@ double rms_difference(const History& history, const std::string& name,
   return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
 }
 
+Curve ReferenceCurve::curve(const std::string& label, double until) const {
+  Curve curve{
+      .label = label, .style = {.line = Line::none, .marker = Marker::circle}, .reference = true};
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (time[i] > until + 1e-9) break;
+    curve.x.push_back(time[i]);
+    curve.y.push_back(value[i]);
+  }
+  curve.style.marker_every = 1 + static_cast<int>(curve.x.size()) / 30;
+  return curve;
+}
+
+double ReferenceCurve::at(double when) const {
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (std::abs(time[i] - when) < 1e-9) return value[i];
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Curve ReferenceCurve::difference(const History& history, const std::string& name,
+                                 const std::string& label) const {
+  Curve curve{.label = label};
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double difference = history.at(name, time[i]) - value[i];
+    if (std::isnan(difference)) continue;
+    curve.x.push_back(time[i]);
+    curve.y.push_back(difference);
+  }
+  return curve;
+}
+
+double largest_until(const Curve& curve, double time) {
+  double largest = 0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (curve.x[i] <= time + 1e-9) largest = std::max(largest, std::abs(curve.y[i]));
+  return largest;
+}
+
 }  // namespace sphmbs::examples

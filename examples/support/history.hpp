@@ -47,4 +47,31 @@ double rms_difference(const History& history, const std::string& name,
                       const std::vector<double>& time, const std::vector<double>& reference,
                       const std::vector<double>& scale, double from, double to);
 
+/// Times and values of a quantity, published or by another solution.
+struct ReferenceCurve {
+  std::vector<double> time;
+  std::vector<double> value;
+
+  /// As open circles, not more than some thirty, up to a time.
+  Curve curve(const std::string& label, double until) const;
+  /// Its value at one of its times; NaN at others.
+  double at(double when) const;
+  /// What a quantity of the history has more, at the reference times that the history has reached.
+  Curve difference(const History& history, const std::string& name, const std::string& label) const;
+};
+
+/// Column `member` of a table of rows with a time t.
+template <class Rows, class Row>
+ReferenceCurve reference_curve(const Rows& rows, double Row::*member) {
+  ReferenceCurve reference;
+  for (const Row& row : rows) {
+    reference.time.push_back(row.t);
+    reference.value.push_back(row.*member);
+  }
+  return reference;
+}
+
+/// Largest magnitude of a curve up to a time.
+double largest_until(const Curve& curve, double time);
+
 }  // namespace sphmbs::examples

@@ -117,6 +117,10 @@ struct ImageOptions {
   /// are cut at its edge.
   std::optional<Range> x_range{};
   std::optional<Range> y_range{};
+  /// Names of the axes, and whether they are drawn at all.
+  std::string x_name = "x";
+  std::string y_name = "y";
+  bool axes = true;
   /// Width of the picture with all labels [pixels]; the height follows from the box.
   int width = 1200;
   /// Colour where there is no particle.

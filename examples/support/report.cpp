@@ -80,6 +80,22 @@ std::string difference_text(const Result& result) {
   return text;
 }
 
+void print_structure(std::ostream& out, const Summary& summary, const std::string& aside) {
+  const StructureCounts& structure = *summary.structure;
+  const double steps = std::max(1.0, static_cast<double>(summary.steps));
+  std::string text = format_number(static_cast<double>(structure.iterations) / steps, 3) +
+                     " iterations a step, " + format_count(structure.factorisations) +
+                     " factorisations";
+  if (structure.halvings > 0) text += ", " + format_count(structure.halvings) + " halvings";
+  if (structure.rejected > 0) text += ", " + format_count(structure.rejected) + " rejected";
+  print_line(out, "newton", text, aside);
+  if (has_gas(summary)) return;
+  print_line(out, "conserved", "energy " + format_number(summary.conservation.energy, 2),
+             "(over the largest kinetic energy)");
+  print_line(out, "joints", "hold to " + format_number(structure.violation, 2),
+             "(over the structure's size)");
+}
+
 void print_results(std::ostream& out, const std::vector<Result>& results) {
   std::size_t name_width = 4;
   std::size_t unit_width = 4;
@@ -145,7 +161,9 @@ void Report::progress(const Progress& state) {
   }
   last_tenth_ = std::max(last_tenth_, tenth);
   last_clock_ = now;
-  last_pairs_ = state.pair_interactions;
+  last_pairs_ = state.pair_interactions.value_or(0);
+  last_iterations_ = state.iterations.value_or(0);
+  last_step_ = state.step;
 }
 
 double Report::seconds_left(const Progress& state, double now) const {
@@ -169,16 +187,25 @@ void Report::print_bar(const Progress& state, double now) {
 
 void Report::print_row(const Progress& state, double now) {
   if (rows_++ % rows_per_heading == 0) {
-    *out_ << "    step       t [s]      dt [s]  limited by            Mpair/s     ETA\n";
+    *out_ << "    step       t [s]      dt [s]  limited by          "
+          << (state.pair_interactions ? "  Mpair/s" : "") << (state.iterations ? "  it/step" : "")
+          << "     ETA\n";
   }
-  const double elapsed = now - last_clock_;
-  const auto pairs = static_cast<double>(state.pair_interactions - last_pairs_);
-  const std::string rate = rows_ > 1 && elapsed > 0.0 ? format_number(1e-6 * pairs / elapsed) : "-";
+  const auto ratio = [&](std::int64_t part, double whole, double scale) {
+    const bool known = rows_ > 1 && whole > 0.0;
+    return aligned_right(
+        known ? format_number(scale * static_cast<double>(part) / whole) : std::string("-"), 9);
+  };
   *out_ << aligned_right(format_count(state.step), 8)
         << aligned_right(format_number(state.time), 12)
-        << aligned_right(format_number(state.time_step), 12) << "  " << padded(state.limited_by, 20)
-        << aligned_right(rate, 9) << aligned_right(format_clock(seconds_left(state, now)), 8)
-        << std::endl;
+        << aligned_right(format_number(state.time_step), 12) << "  "
+        << padded(state.limited_by, 20);
+  if (state.pair_interactions)
+    *out_ << ratio(*state.pair_interactions - last_pairs_, now - last_clock_, 1e-6);
+  if (state.iterations)
+    *out_ << ratio(*state.iterations - last_iterations_,
+                   static_cast<double>(state.step - last_step_), 1.0);
+  *out_ << aligned_right(format_clock(seconds_left(state, now)), 8) << std::endl;
 }
 
 void Report::clear_bar() {
@@ -206,16 +233,20 @@ void Report::finish(const Summary& summary, const std::vector<std::string>& writ
              format_count(summary.steps) + " steps, t = " + format_number(summary.time_end) +
                  " s in " + format_duration(summary.wall_seconds));
   if (!summary.phases.empty()) print_line(out, "phases", phases_text(summary));
-  print_line(out, "pairs",
-             format_number(static_cast<double>(summary.pair_interactions)) + " interactions, " +
-                 format_number(1e-6 * pair_interactions_per_second(summary)) + " million/s",
-             "peak memory " + format_bytes(summary.peak_memory_bytes));
-  const Conservation& conservation = summary.conservation;
-  print_line(out, "conserved",
-             "mass " + format_number(conservation.mass, 2) + " | momentum " +
-                 format_number(conservation.momentum, 2) + " | energy " +
-                 format_number(conservation.energy, 2),
-             "(relative change)");
+  const std::string memory = "peak memory " + format_bytes(summary.peak_memory_bytes);
+  if (summary.structure) print_structure(out, summary, has_gas(summary) ? "" : memory);
+  if (has_gas(summary)) {
+    print_line(out, "pairs",
+               format_number(static_cast<double>(summary.pair_interactions)) + " interactions, " +
+                   format_number(1e-6 * pair_interactions_per_second(summary)) + " million/s",
+               memory);
+    const Conservation& conservation = summary.conservation;
+    print_line(out, "conserved",
+               "mass " + format_number(conservation.mass, 2) + " | momentum " +
+                   format_number(conservation.momentum, 2) + " | energy " +
+                   format_number(conservation.energy, 2),
+               "(relative change)");
+  }
   if (!summary.results.empty()) print_results(out, summary.results);
   for (const Warning& warning : warnings_) {
     print_line(out, "warning",

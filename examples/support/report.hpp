@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,10 @@ struct Progress {
   double until = 0.0;
   /// What made the time step as short as it is, for example "acoustic".
   std::string_view limited_by{};
-  /// Pairs of neighbours evaluated since the start.
-  std::int64_t pair_interactions = 0;
+  /// Since the start: pairs of neighbours evaluated, in a run with gas, and iterations of Newton's
+  /// method, in one with a structure. What is given has a column in a log.
+  std::optional<std::int64_t> pair_interactions{};
+  std::optional<std::int64_t> iterations{};
 };
 
 /// Where and how a Report prints.
@@ -92,6 +95,8 @@ class Report {
   double start_time_ = 0.0;
   double last_clock_ = 0.0;
   std::int64_t last_pairs_ = 0;
+  std::int64_t last_iterations_ = 0;
+  std::int64_t last_step_ = 0;
   int last_tenth_ = 0;
   int rows_ = 0;
 };

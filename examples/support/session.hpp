@@ -6,34 +6,58 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <sphmbs/sphmbs.hpp>
+#include <sphmbs/core/vec.hpp>
+#include <sphmbs/io/pvd.hpp>
+#include <sphmbs/run.hpp>
+#include <sphmbs/version.hpp>
 
 #include "support/history.hpp"
 #include "support/output_folder.hpp"
 #include "support/report.hpp"
-#include "support/snapshot.hpp"
 #include "support/text.hpp"
 
 namespace sphmbs::examples {
 
-/// What an example does around its fluid: banner, progress, probes, fields, pictures, summary.
-template <class Fluid>
+/// What a session shows of a system: specialised for a gas (gas_session.hpp) and for a structure
+/// (structure_session.hpp).
+///   collection                    name of the list of its files, and of these
+///   columns()                     of the history, filled by sample(row)
+///   prepare()                     the system for its first output
+///   banner(settings)              lines below the notes
+///   heed(settings, report)        warnings
+///   progress(state)               adds its counts
+///   write(folder, title, number)  files of one time; @return the names of those to be listed
+///   phases()                      parts of the time that steps take
+///   summarise(summary)            adds its counts and what it conserves
+template <class System>
+class Display;
+
+/// What an example does around its system: banner, progress, history, trajectories, files of
+/// fields, pictures, summary.
+template <class System>
 class Session {
  public:
-  static constexpr int dim = Fluid::dim;
-  using Place = Vec<dim>;
+  using Place = Vec<System::dim>;
+  /// Interval of trajectories.csv [s].
+  static constexpr double trace_interval = 5e-3;
 
-  Session(const Settings& settings, std::string name, std::string title, Fluid& fluid)
+  Session(const Settings& settings, std::string name, std::string title, System& system)
       : settings_(settings),
         name_(std::move(name)),
         title_(std::move(title)),
-        fluid_(fluid),
-        report_(settings.quiet),
-        start_(fluid.totals()) {}
+        system_(system),
+        display_(system),
+        report_(settings.quiet) {
+    for (const auto& column : display_.columns()) history_.add(column.name, column.unit);
+    sampled_.push_back([this](std::vector<double>& row) { display_.sample(row); });
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   /// A line of the banner.
   void note(std::string key, std::string value) {
@@ -41,44 +65,61 @@ class Session {
   }
 
   /// Samples the gas at a place: columns speed_<name> and p_<name>.
-  void probe(const std::string& name, const Place& place) {
+  void probe(const std::string& name, const Place& place) requires requires(System& gas) {
+    gas.sample(place);
+  }
+  {
     history_.add("speed_" + name, "m/s");
     history_.add("p_" + name, "Pa");
     sampled_.push_back([this, place](std::vector<double>& row) {
-      const auto s = fluid_.sample(place);
+      const auto s = system_.sample(place);
       row.push_back(std::sqrt(norm2(s.v)));
       row.push_back(s.p);
     });
   }
 
-  /// Records any quantity.
+  /// Records any quantity in history.csv.
   void record(const std::string& name, const std::string& unit, std::function<double()> value) {
     history_.add(name, unit);
     sampled_.push_back(
         [value = std::move(value)](std::vector<double>& row) { row.push_back(value()); });
   }
 
+  /// Records any quantity in trajectories.csv.
+  void trace(const std::string& name, const std::string& unit, std::function<double()> value) {
+    traces_.add(name, unit);
+    traced_.push_back(std::move(value));
+  }
+
   /// Writes fields and pictures `fields` times and samples the history `samples` times until the
-  /// end, and steps the fluid.
+  /// end, trajectories at every multiple of trace_interval, and steps the system.
   /// @throws what sphmbs::run throws, and OutputError; everything sampled until then is on disk.
   template <class Integrator>
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
     std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     const Clock::time_point begin = Clock::now();
-    fluid_.stage(0, 0);
-    fluid_.rates(0);
+    display_.prepare();
     banner(is_new);
-    history_.begin(file("history.csv"), name_ + ", sphmbs " + std::string(version));
-    const double interval = settings_.until / samples;
-    io::PvdCollection collection(file("fields.pvd"));
-    const Schedule schedule{settings_.until, settings_.cfl, settings_.step};
+    const std::string comment = name_ + ", sphmbs " + std::string(version);
+    history_.begin(file("history.csv"), comment);
+    if (!traced_.empty()) traces_.begin(file("trajectories.csv"), comment);
+    const std::string list = std::string(Display<System>::collection) + ".pvd";
+    io::PvdCollection collection(file(list));
+    written_ = {list, "history.csv"};
+    if (!traced_.empty()) written_.push_back("trajectories.csv");
+    const Schedule schedule{settings_.until, settings_.cfl, step()};
     sphmbs::run(
-        fluid_, integrator, schedule, [&](Fluid&, const sph::StepLimit& limit) { progress(limit); },
+        system_, integrator, schedule,
+        [&](System&, const sph::StepLimit& limit) { progress(limit); },
         Every(
-            interval, [&](Fluid&) { sample(); }, Timing::next_step),
-        Every(settings_.until / fields, [&](Fluid&) { write_fields(collection); }));
-    wall_seconds_ = std::chrono::duration<double>(Clock::now() - begin).count();
+            settings_.until / samples, [&](System&) { timed([&] { sample(); }); },
+            Timing::next_step),
+        Every(traced_.empty() ? settings_.until : trace_interval,
+              [&](System&) { timed([&] { trace_row(); }); }),
+        Every(settings_.until / fields,
+              [&](System&) { timed([&] { write_fields(collection); }); }));
+    wall_seconds_ = seconds_since(begin);
   }
 
   /// A number the run was made for.
@@ -95,6 +136,13 @@ class Session {
     }
   }
 
+  /// Lets draw(path) make the picture <name>, and lists it.
+  template <class Draw>
+  void picture(const std::string& name, Draw&& draw) {
+    draw(file(name));
+    written_.push_back(name);
+  }
+
   /// Writes summary.json and prints the closing block.
   void finish() {
     const Summary summary = summarise();
@@ -106,125 +154,117 @@ class Session {
   }
 
   History& history() { return history_; }
+  /// What trajectories.csv holds.
+  History& traces() { return traces_; }
   const Settings& settings() const { return settings_; }
+  const std::string& title() const { return title_; }
+  System& system() { return system_; }
+  Display<System>& display() { return display_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path file(const std::string& name) const { return settings_.output / name; }
 
+  static double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  template <class Output>
+  void timed(Output&& output) {
+    const Clock::time_point begin = Clock::now();
+    output();
+    output_seconds_ += seconds_since(begin);
+  }
+
+  // A fixed step, shortened so that trajectories meet their times.
+  std::optional<double> step() const {
+    if (!settings_.step || traced_.empty()) return settings_.step;
+    return trace_interval / std::ceil(trace_interval / *settings_.step - 1e-9);
+  }
+
   void banner(bool is_new) {
     std::vector<BannerLine> lines{
         {"case", name_, settings_.output.string() + (is_new ? " (new)" : "")}};
     lines.insert(lines.end(), notes_.begin(), notes_.end());
-    lines.push_back({"particles",
-                     format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
-                         format_count(static_cast<std::int64_t>(fluid_.virtual_count())) +
-                         " virtual",
-                     "memory " + format_bytes(fluid_.bytes()) + ", " +
-                         std::to_string(fluid_.bytes() / fluid_.size()) + " B/particle"});
-    lines.push_back({"run", "until " + format_exact(settings_.until) + " s",
-                     settings_.backend + ", " + std::to_string(settings_.threads) +
-                         (settings_.threads == 1 ? " thread" : " threads")});
-    const sph::StepLimit limit = sph::step_limit(fluid_.survey(), settings_.cfl);
-    const std::string fixed =
-        settings_.step ? "fixed at " + format_exact(*settings_.step) + " s; " : "";
-    lines.push_back({"step", fixed + limit_text(limit), ""});
+    Settings shown = settings_;
+    shown.step = step();
+    const auto own = display_.banner(shown);
+    lines.insert(lines.end(), own.begin(), own.end());
     report_.banner(title_, lines);
-    if (settings_.step && *settings_.step > 2 * limit.dt)
-      report_.warn("long step",
-                   "the fixed step is more than twice what the stability limits allow");
-  }
-
-  // What the stability limits allow at the start, and where the particle is that sets it.
-  std::string limit_text(const sph::StepLimit& limit) {
-    using Policy = typename Fluid::PolicyType;
-    const auto fields = fluid_.particles().fields();
-    const auto id = download<Policy>(fields.id, fluid_.size());
-    const auto at =
-        static_cast<std::size_t>(std::find(id.begin(), id.end(), limit.id) - id.begin());
-    std::string text = "at most " + format_number(limit.dt, 3) + " s at cfl " +
-                       format_exact(settings_.cfl) + " (" + std::string(limit.reason) + " at (";
-    for (int k = 0; k < dim; ++k) {
-      const auto x = download<Policy>(fields.r[k] + at, 1);
-      text += (k > 0 ? ", " : "") + format_number(static_cast<double>(x[0]));
-    }
-    return text + ") m)";
+    if (settings_.step && std::abs(*shown.step - *settings_.step) > 1e-9 * *settings_.step)
+      report_.warn("step", "shortened from " + format_exact(*settings_.step) + " to " +
+                               format_number(*shown.step, 6) + " s, a whole fraction of the " +
+                               format_exact(trace_interval) +
+                               " s between rows of trajectories.csv");
+    display_.heed(shown, report_);
   }
 
   void progress(const sph::StepLimit& limit) {
     std::string why(limit.reason);
-    if (limit.reason != "fixed") why += " #" + std::to_string(limit.id);
-    const sph::Statistics& done = fluid_.statistics();
-    report_.progress({.step = static_cast<std::int64_t>(done.steps),
-                      .time = fluid_.time(),
-                      .time_step = limit.dt,
-                      .until = settings_.until,
-                      .limited_by = why,
-                      .pair_interactions = static_cast<std::int64_t>(done.pair_interactions)});
+    if (limit.reason != "fixed" && limit.reason != "accuracy")
+      why += " #" + std::to_string(limit.id);
+    Progress state{
+        .time = system_.time(), .time_step = limit.dt, .until = settings_.until, .limited_by = why};
+    display_.progress(state);
+    report_.progress(state);
   }
 
   void sample() {
-    const Clock::time_point begin = Clock::now();
     std::vector<double> row;
     for (const auto& add : sampled_) add(row);
-    history_.row(fluid_.time(), row);
-    output_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    history_.row(system_.time(), row);
+  }
+
+  void trace_row() {
+    if (traced_.empty()) return;
+    std::vector<double> row;
+    for (const auto& value : traced_) row.push_back(value());
+    const double t = system_.time(), due = trace_interval * std::round(t / trace_interval);
+    traces_.row(std::abs(t - due) < 1e-9 * trace_interval ? due : t, row);
   }
 
   void write_fields(io::PvdCollection& collection) {
-    const Clock::time_point begin = Clock::now();
     const std::string number = std::to_string(10000 + frames_++).substr(1);
-    write_snapshot(file("fields_" + number + ".vtp"), fluid_);
-    collection.add(fluid_.time(), "fields_" + number + ".vtp");
-    if constexpr (dim == 2) draw_snapshot(settings_.output, fluid_, title_, number);
-    output_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    int part = 0;
+    for (const std::string& name : display_.write(settings_.output, title_, number))
+      collection.add(system_.time(), name, part++);
   }
 
   Summary summarise() {
-    const sph::Statistics& done = fluid_.statistics();
-    const auto end = fluid_.totals();
-    const auto& received = fluid_.exchange();
     Summary s;
     s.case_name = name_;
     s.backend = settings_.backend;
     s.threads = settings_.threads;
-    s.particles = {static_cast<std::int64_t>(fluid_.gas_count()),
-                   static_cast<std::int64_t>(fluid_.virtual_count())};
-    s.steps = static_cast<std::int64_t>(done.steps);
-    s.time_end = fluid_.time();
+    s.time_end = system_.time();
     s.wall_seconds = wall_seconds_;
+    s.phases = display_.phases();
     double accounted = output_seconds_;
-    for (std::size_t k = 0; k < done.seconds.size(); ++k) {
-      s.phases.push_back({std::string(sph::phase_names[k]), done.seconds[k]});
-      accounted += done.seconds[k];
-    }
+    for (const Phase& phase : s.phases) accounted += phase.seconds;
+    const double left = std::max(0.0, wall_seconds_ - accounted);
+    if (s.phases.empty()) s.phases.push_back({"steps", left});
+    const bool split = s.phases.size() > 1;
     s.phases.push_back({"output", output_seconds_});
-    s.phases.push_back({"other", std::max(0.0, wall_seconds_ - accounted)});
-    s.pair_interactions = static_cast<std::int64_t>(done.pair_interactions);
+    if (split) s.phases.push_back({"other", left});
     s.peak_memory_bytes = peak_memory();
-    s.conservation.mass = (end.mass - start_.mass) / start_.mass;
-    const Vec<dim> gained = end.momentum - start_.momentum - received.impulse();
-    s.conservation.momentum =
-        std::sqrt(norm2(gained)) / std::sqrt(2 * end.mass * (end.kinetic + end.internal));
-    const double energy = end.energy() + end.virtual_internal - start_.energy() -
-                          start_.virtual_internal - received.body_work() - received.driving_work();
-    s.conservation.energy = energy / (start_.energy() + start_.virtual_internal);
     s.results = results_;
+    display_.summarise(s);
     return s;
   }
 
   Settings settings_;
   std::string name_;
   std::string title_;
-  Fluid& fluid_;
+  System& system_;
+  Display<System> display_;
   Report report_;
-  sph::Totals<dim> start_;
   std::vector<BannerLine> notes_;
   History history_;
+  History traces_;
   std::vector<std::function<void(std::vector<double>&)>> sampled_;
+  std::vector<std::function<double()>> traced_;
   std::vector<Result> results_;
-  std::vector<std::string> written_{"fields.pvd", "history.csv"};
+  std::vector<std::string> written_;
   int frames_ = 0;
   double output_seconds_ = 0;
   double wall_seconds_ = 0;

@@ -150,6 +150,8 @@ struct CommandLine::Parts {
                   const std::string& allowed);
   void add_switch(const std::string& name, bool& value, const std::string& help);
   void add_common_options();
+  /// The option that lets the step vary.
+  std::string variable_step() const { return program.gas ? "--cfl" : "--accuracy"; }
 
   void split(int argc, const char* const* argv);
   void refuse_misuse(const std::vector<std::string>& words_reversed) const;
@@ -209,21 +211,39 @@ void CommandLine::Parts::add_common_options() {
   app.set_help_flag("-h,--help", "show this help and exit")->group(group);
   app.set_version_flag("--version", "", "show versions, compiler and flags, and exit")
       ->group(group);
-  add_numeric<double>("--spacing", positive, "m", "distance of neighbouring particles",
-                      format_exact(defaults.spacing),
-                      [this](double value) { settings.spacing = value; });
+  if (program.gas) {
+    add_numeric<double>("--spacing", positive, "m", "distance of neighbouring particles",
+                        format_exact(defaults.spacing),
+                        [this](double value) { settings.spacing = value; });
+  }
   add_numeric<double>("--until", positive, "s", "physical time at which the run ends",
                       format_exact(defaults.until),
                       [this](double value) { settings.until = value; });
   add_numeric<double>("--step", positive, "s", "fixed time step",
-                      defaults.step ? format_exact(*defaults.step) : "from --cfl",
+                      defaults.step ? format_exact(*defaults.step) : "from " + variable_step(),
                       [this](double value) { settings.step = value; });
-  add_numeric<double>("--cfl", {.above = 0.0, .at_most = 1.0}, "",
-                      "Courant number of the time step, excludes --step",
-                      defaults.step ? "" : format_exact(defaults.cfl), [this](double value) {
-                        settings.cfl = value;
-                        settings.step.reset();
-                      });
+  if (program.gas) {
+    add_numeric<double>("--cfl", {.above = 0.0, .at_most = 1.0}, "",
+                        "Courant number of the time step, excludes --step",
+                        defaults.step ? "" : format_exact(defaults.cfl), [this](double value) {
+                          settings.cfl = value;
+                          settings.step.reset();
+                        });
+  } else {
+    add_numeric<double>("--accuracy", positive, "m",
+                        "steps as long as this error of a position allows, excludes --step",
+                        defaults.accuracy ? format_exact(*defaults.accuracy) : "",
+                        [this](double value) {
+                          settings.accuracy = value;
+                          settings.step.reset();
+                        });
+  }
+  if (program.structure) {
+    add_numeric<double>("--spectral-radius", {.at_least = 0.0, .at_most = 1.0}, "",
+                        "of generalized-alpha, 1 damps no vibration, 0 the fastest ones at once",
+                        format_exact(defaults.spectral_radius),
+                        [this](double value) { settings.spectral_radius = value; });
+  }
   add_numeric<int>("--threads", {.at_least = 1.0, .at_most = 4096.0}, "", "number of threads",
                    std::to_string(defaults.threads),
                    [this](int value) { settings.threads = value; });
@@ -327,17 +347,23 @@ CommandLine::CommandLine(Program program) : parts_(std::make_unique<Parts>()) {
   if (defaults.output.empty()) defaults.output = std::filesystem::path("results") / program.name;
   const Bounds positive{.above = 0.0};
   const auto& backends = program.backends;
-  if (!inside(positive, defaults.spacing) || !inside(positive, defaults.until) ||
-      !inside(positive, defaults.step.value_or(1.0)) ||
-      !inside({.above = 0.0, .at_most = 1.0}, defaults.cfl) ||
+  const bool has_step = program.gas || defaults.step || defaults.accuracy;
+  if (!inside(positive, program.gas ? defaults.spacing : 1.0) ||
+      !inside(positive, defaults.until) || !inside(positive, defaults.step.value_or(1.0)) ||
+      !inside({.above = 0.0, .at_most = 1.0}, defaults.cfl) || !has_step ||
+      !inside(positive, defaults.accuracy.value_or(1.0)) ||
+      !inside({.at_least = 0.0, .at_most = 1.0}, defaults.spectral_radius) ||
       std::find(backends.begin(), backends.end(), defaults.backend) == backends.end()) {
     throw std::invalid_argument("CommandLine: " + program.name +
                                 " has a default that is not valid");
   }
   if (program.usage_examples.empty()) {
     program.usage_examples = {
-        {"--spacing " + format_exact(defaults.spacing / 2.0) + " --output results/finer",
-         "twice the resolution"},
+        program.gas ? UsageExample{"--spacing " + format_exact(defaults.spacing / 2.0) +
+                                       " --output results/finer",
+                                   "twice the resolution"}
+                    : UsageExample{"--accuracy 1e-6 --output results/accurate",
+                                   "steps that follow the motion"},
         {"--threads 1 --quiet --overwrite",
          "one thread, silent, over the results of an earlier run"},
     };
@@ -394,8 +420,9 @@ std::optional<Settings> CommandLine::parse(int argc, const char* const* argv, st
     parts.refuse_unknown(unknown.front());
   }
   const Option& step = parts.find("--step");
-  if (step.given() && parts.find("--cfl").given()) {
-    refuse(step.name, step.text, "excludes --cfl; give one of them");
+  const std::string variable = parts.variable_step();
+  if (step.given() && parts.find(variable).given()) {
+    refuse(step.name, step.text, "excludes " + variable + "; give one of them");
   }
 
   const std::vector<Store> stores = parts.checked_stores();
@@ -435,6 +462,11 @@ std::string CommandLine::version_line() const {
   const Program& program = parts_->program;
   return program.name + " (sphmbs " + std::string(version) + ") | " + build_info() +
          " | back ends " + joined(program.backends, ", ");
+}
+
+std::string CommandLine::memory_advice() const {
+  return parts_->program.gas ? "a larger --spacing means fewer particles"
+                             : "fewer elements need less of it";
 }
 
 void require(bool condition, std::string_view option, double value, std::string_view allowed) {

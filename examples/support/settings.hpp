@@ -13,14 +13,18 @@ namespace sphmbs::examples {
 
 /// What every example program lets its user choose.
 struct Settings {
-  /// Distance of neighbouring particles [m].
+  /// Distance of neighbouring particles [m]; of a program with gas.
   double spacing = 0.0;
   /// Physical time at which the run ends [s].
   double until = 0.0;
-  /// Fixed time step [s]; without it the step follows from `cfl`.
+  /// Fixed time step [s]; without it the step follows from `cfl` in gas, from `accuracy` else.
   std::optional<double> step{};
-  /// Courant number of the time step, in (0, 1].
+  /// Courant number of the time step, in (0, 1]; of a program with gas.
   double cfl = 0.3;
+  /// Error of a position that the steps of a structure aim at [m].
+  std::optional<double> accuracy{};
+  /// Spectral radius of generalized-alpha at infinite frequency, in [0, 1]; of a structure.
+  double spectral_radius = 0.8;
   /// Number of threads; 0 among the defaults of a program: as many as OpenMP offers.
   int threads = 0;
   /// Name of the execution policy; empty among the defaults: the first of Program::backends.
@@ -57,6 +61,10 @@ struct Program {
   /// Execution policies that are compiled in, at least one.
   std::vector<std::string> backends{};
   Settings defaults{};
+  /// What is simulated decides on the options: --spacing and --cfl belong to a gas,
+  /// --spectral-radius to a structure, and --accuracy to a structure without gas.
+  bool gas = true;
+  bool structure = false;
   /// Without any, --help shows two that fit every program.
   std::vector<UsageExample> usage_examples{};
 };
@@ -95,6 +103,8 @@ class CommandLine {
   std::string help() const;
   /// The line of --version: versions, compiler, relevant flags and back ends.
   std::string version_line() const;
+  /// How to make a run fit into the memory: "a larger --spacing means fewer particles".
+  std::string memory_advice() const;
 
  private:
   struct Parts;

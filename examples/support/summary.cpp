@@ -16,6 +16,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json to_json(const StructureCounts& structure) {
+  return {{"coordinates", structure.coordinates},
+          {"conditions", structure.conditions},
+          {"redundant", structure.redundant},
+          {"iterations", structure.iterations},
+          {"factorisations", structure.factorisations},
+          {"halvings", structure.halvings},
+          {"rejected", structure.rejected},
+          {"violation", structure.violation}};
+}
+
 Json to_json(const Summary& summary) {
   Json phases = Json::object();
   for (const Phase& phase : summary.phases) phases[phase.name] = phase.seconds;
@@ -25,26 +36,33 @@ Json to_json(const Summary& summary) {
                             {"reference", result.reference ? Json(*result.reference) : Json()},
                             {"unit", result.unit}};
   }
-  return {
-      {"case", summary.case_name},
-      {"version", summary.version},
-      {"backend", summary.backend},
-      {"threads", summary.threads},
-      {"particles",
-       {{"gas", summary.particles.gas}, {"virtual", summary.particles.virtual_particles}}},
-      {"steps", summary.steps},
-      {"time_end", summary.time_end},
-      {"wall_seconds", summary.wall_seconds},
-      {"phases", phases},
-      {"pair_interactions", summary.pair_interactions},
-      {"pair_interactions_per_second", pair_interactions_per_second(summary)},
-      {"peak_memory_bytes", summary.peak_memory_bytes},
-      {"conservation",
-       {{"mass", summary.conservation.mass},
-        {"momentum", summary.conservation.momentum},
-        {"energy", summary.conservation.energy}}},
-      {"results", results},
-  };
+  const bool gas = has_gas(summary);
+  Json json = {{"case", summary.case_name},
+               {"version", summary.version},
+               {"backend", summary.backend},
+               {"threads", summary.threads}};
+  if (gas)
+    json["particles"] = {{"gas", summary.particles.gas},
+                         {"virtual", summary.particles.virtual_particles}};
+  if (summary.structure) json["structure"] = to_json(*summary.structure);
+  json["steps"] = summary.steps;
+  json["time_end"] = summary.time_end;
+  json["wall_seconds"] = summary.wall_seconds;
+  json["phases"] = phases;
+  if (gas) {
+    json["pair_interactions"] = summary.pair_interactions;
+    json["pair_interactions_per_second"] = pair_interactions_per_second(summary);
+  }
+  json["peak_memory_bytes"] = summary.peak_memory_bytes;
+  Json conservation = Json::object();
+  if (gas) {
+    conservation["mass"] = summary.conservation.mass;
+    conservation["momentum"] = summary.conservation.momentum;
+  }
+  conservation["energy"] = summary.conservation.energy;
+  json["conservation"] = conservation;
+  json["results"] = results;
+  return json;
 }
 
 }  // namespace

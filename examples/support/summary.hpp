@@ -18,7 +18,9 @@ struct Phase {
   double seconds = 0.0;
 };
 
-/// Relative change of the conserved quantities over the run, [-]; NaN where it has no meaning.
+/// Relative change of the conserved quantities over the run, [-]; NaN where it has no meaning. The
+/// energy of a structure alone is set against its largest kinetic energy; its mass is constant, and
+/// joints take its momentum.
 struct Conservation {
   double mass = 0.0;
   double momentum = 0.0;
@@ -42,6 +44,19 @@ struct ParticleCounts {
   std::int64_t virtual_particles = 0;
 };
 
+/// Size of a structure and what its integrator did.
+struct StructureCounts {
+  std::int64_t coordinates = 0;
+  std::int64_t conditions = 0;
+  std::int64_t redundant = 0;
+  std::int64_t iterations = 0;
+  std::int64_t factorisations = 0;
+  std::int64_t halvings = 0;
+  std::int64_t rejected = 0;
+  /// Largest violation of a condition at the end, over the size of the structure [-].
+  double violation = 0.0;
+};
+
 /// What a run did, for people (Report::finish) and for programs (write_summary).
 struct Summary {
   std::string case_name{};
@@ -49,6 +64,8 @@ struct Summary {
   std::string backend{};
   int threads = 1;
   ParticleCounts particles{};
+  /// Of a run with a structure. Without particles beside it, nothing is said of gas.
+  std::optional<StructureCounts> structure{};
   std::int64_t steps = 0;
   /// Physical time reached [s].
   double time_end = 0.0;
@@ -62,6 +79,11 @@ struct Summary {
   Conservation conservation{};
   std::vector<Result> results{};
 };
+
+/// Whether there is gas to speak of.
+inline bool has_gas(const Summary& summary) {
+  return !summary.structure || summary.particles.gas > 0;
+}
 
 /// Pairs of neighbours evaluated per second of wall-clock time; 0 for a run of no duration.
 double pair_interactions_per_second(const Summary& summary);

@@ -13,11 +13,12 @@ namespace test {
 template <class F>
 double root(double a, double b, F&& f) {
   const bool up = f(b) > 0;
-  for (int k = 0; k < 200 && a != b; ++k) {
-    const double m = 0.5 * (a + b);
+  double m = 0.5 * (a + b);
+  for (int k = 0; k < 200 && m != a && m != b; ++k) {
     ((f(m) > 0) == up ? b : a) = m;
+    m = 0.5 * (a + b);
   }
-  return 0.5 * (a + b);
+  return m;
 }
 
 /// Order at which errors fall from a mesh to one `ratio` times as fine.
@@ -45,12 +46,25 @@ struct Elastica {
   }
 };
 
+/// Stretch l = |r'| of a rod with the energy of a `Measure` under the normal force N and the moment
+/// M: N = EA (l - 1), or with Green's strain and the geometric curvature
+/// N = EA (l^2 - 1) l/2 - M^2 l/(EI).
+template <class Measure>
+double stretch(double N, double M, double EA, double EI) {
+  if constexpr (Measure::curvature_power == 2) return 1 + N / EA;
+  const double c = 0.5 * EA + M * M / EI;
+  double l = 1 + std::cbrt(std::max(0.0, 2 * N / EA));
+  for (int k = 0; k < 30; ++k) l -= (0.5 * EA * l * l * l - c * l - N) / (1.5 * EA * l * l - c);
+  return l;
+}
+
 /// What a rod without shear is made of, and what it carries: a dead force and a moment at its tip
 /// and a dead load per unstretched length.
 struct RodLoad {
   double length, EA, EI;
   sphmbs::mbs::Vector<2> force = {0, 0}, line_load = {0, 0};
   double moment = 0;
+  double shear_compliance = 0;  // 1/(k GA), with the energy of Reissner's beam (Engineering)
 };
 
 /// Planar cantilever, clamped along +x, whose energy is that of `Measure`: what cables of it tend
@@ -79,7 +93,7 @@ class ExactRod {
 
   // th, M, x and y less those at the tip, at the clamp.
   Rates integrated(double angle) const {
-    constexpr int steps = 2000;
+    constexpr int steps = 1000;
     const double h = -load_.length / steps;
     Rates y(angle, load_.moment, 0, 0);
     for (int k = 0; k < steps; ++k) {
@@ -94,19 +108,11 @@ class ExactRod {
   Rates rates(double s, const Rates& y) const {
     const sphmbs::mbs::Vector<2> n = load_.force + (load_.length - s) * load_.line_load,
                                  t(std::cos(y[0]), std::sin(y[0]));
-    const double l = stretch(n.dot(t), y[1]);
+    const double l = stretch<Measure>(n.dot(t), y[1], load_.EA, load_.EI);
     const double turning = Measure::curvature_power == 2 ? 1 : l * l;
-    return {turning * y[1] / load_.EI, -l * (t[0] * n[1] - t[1] * n[0]), l * t[0], l * t[1]};
-  }
-
-  double stretch(double N, double M) const {
-    if constexpr (Measure::curvature_power == 2) return 1 + N / load_.EA;
-    double l = 1;
-    for (int k = 0; k < 20; ++k) {
-      const double c = 0.5 * load_.EA + M * M / load_.EI;
-      l -= (0.5 * load_.EA * l * l * l - c * l - N) / (1.5 * load_.EA * l * l - c);
-    }
-    return l;
+    const sphmbs::mbs::Vector<2> across(-t[1], t[0]),
+        r = l * t + load_.shear_compliance * n.dot(across) * across;
+    return {turning * y[1] / load_.EI, -(r[0] * n[1] - r[1] * n[0]), r[0], r[1]};
   }
 
   RodLoad load_;

@@ -26,17 +26,18 @@ class PvdCollection {
   explicit PvdCollection(std::filesystem::path path) : path_(std::move(path)) { write(); }
 
   /// Appends a file at physical time `time` [s] and rewrites the list. `relative_file` is relative
-  /// to the directory of the list, with forward slashes. Throws std::invalid_argument if the time
+  /// to the directory of the list, with forward slashes. Several files of one time, such as gas
+  /// and bodies, are told apart by `part`. Throws std::invalid_argument if the time
   /// is not finite, OutputError with path and reason if writing fails.
-  void add(double time, const std::string& relative_file) {
+  void add(double time, const std::string& relative_file, int part = 0) {
     if (!std::isfinite(time)) {
       throw std::invalid_argument("PvdCollection: the time of \"" + relative_file +
                                   "\" is not finite");
     }
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, time).ptr;
-    entries_ += "<DataSet timestep=\"" + std::string(digits, end) +
-                "\" group=\"\" part=\"0\" file=\"" + detail::xml_escaped(relative_file) + "\"/>\n";
+    entries_ += "<DataSet timestep=\"" + std::string(digits, end) + "\" group=\"\" part=\"" +
+                std::to_string(part) + "\" file=\"" + detail::xml_escaped(relative_file) + "\"/>\n";
     write();
   }
 

@@ -1,85 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <numeric>
 #include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <type_traits>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include <sphmbs/core/error.hpp>
-#include <sphmbs/io/replace_file.hpp>
-#include <sphmbs/io/xml.hpp>
+#include <sphmbs/io/vtp_blocks.hpp>
 
 namespace sphmbs::io {
-
-/// One named quantity of all particles, as written to a .vtp file.
-struct PointArray {
-  /// Name shown by the viewer; put the SI unit in it where there is one, e.g. "pressure [Pa]".
-  std::string name{};
-  /// Number of components of one particle: 1 for a scalar, 3 for a vector the viewer can draw.
-  int components = 1;
-  /// Values, particle after particle, components x particles of them. The element type is kept in
-  /// the file: Float32, Float64, Int32 or UInt8.
-  std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>,
-               std::vector<std::uint8_t>>
-      values{};
-};
-
-namespace detail {
-
-/// Data of one .vtp file in the "appended raw" form: each block is its length in bytes as UInt64,
-/// then its bytes. Keeps views only; the values must outlive it.
-class VtpBlocks {
- public:
-  explicit VtpBlocks(std::size_t capacity) { lengths_.reserve(capacity); }
-
-  /// Appends one block and returns its XML element.
-  template <class T>
-  std::string add(std::string_view name, int components, std::span<const T> values) {
-    const std::size_t tuples = values.size() / static_cast<std::size_t>(components);
-    std::string element = "<DataArray type=\"" + std::string(vtk_type<T>()) + "\" Name=\"" +
-                          xml_escaped(name) + "\" NumberOfComponents=\"" +
-                          std::to_string(components) + "\" NumberOfTuples=\"" +
-                          std::to_string(tuples) + "\" format=\"appended\" offset=\"" +
-                          std::to_string(offset_) + "\"/>\n";
-    // The chunks point into lengths_, which must therefore never move.
-    if (lengths_.size() == lengths_.capacity()) throw std::logic_error("VtpBlocks is full");
-    lengths_.push_back(values.size_bytes());
-    chunks_.push_back(std::as_bytes(std::span(&lengths_.back(), 1)));
-    chunks_.push_back(std::as_bytes(values));
-    offset_ += sizeof(std::uint64_t) + values.size_bytes();
-    return element;
-  }
-
-  /// Lengths and values in the order of the file.
-  std::span<const std::span<const std::byte>> chunks() const { return chunks_; }
-
- private:
-  template <class T>
-  static constexpr std::string_view vtk_type() {
-    if constexpr (std::is_same_v<T, float>) return "Float32";
-    if constexpr (std::is_same_v<T, double>) return "Float64";
-    if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-  }
-
-  std::vector<std::uint64_t> lengths_;
-  std::vector<std::span<const std::byte>> chunks_;
-  std::uint64_t offset_ = 0;
-};
-
-}  // namespace detail
 
 /// Interleaved x, y, z coordinates [m] of positions given as a range of vectors with operator[],
 /// e.g. a std::vector<std::array<double, 2>>. Components beyond `Dimension` are 0.
@@ -129,58 +65,66 @@ void write_vtp(const std::filesystem::path& path, const Positions& positions,
   using Coordinate = std::ranges::range_value_t<Positions>;
   const std::span<const Coordinate> positions_xyz(std::ranges::data(positions),
                                                   std::ranges::size(positions));
-  static_assert(std::endian::native == std::endian::little, "raw data are written as they lie");
-  if (positions_xyz.size() % 3 != 0) {
-    throw std::invalid_argument("write_vtp: positions_xyz has " +
-                                std::to_string(positions_xyz.size()) +
-                                " values, expected a multiple of 3");
-  }
   const std::size_t particles = positions_xyz.size() / 3;
-
-  detail::VtpBlocks blocks(arrays.size() + 4);
-  const std::string time_element = blocks.add("TimeValue", 1, std::span<const double>(&time, 1));
-  std::string array_elements;
-  for (const PointArray& array : arrays) {
-    std::visit(
-        [&](const auto& values) {
-          const std::size_t expected =
-              particles * static_cast<std::size_t>(std::max(array.components, 0));
-          if (array.components < 1 || values.size() != expected) {
-            throw std::invalid_argument("write_vtp: array \"" + array.name + "\" has " +
-                                        std::to_string(values.size()) + " values, expected " +
-                                        std::to_string(expected) + " (" +
-                                        std::to_string(array.components) + " components of " +
-                                        std::to_string(particles) + " particles)");
-          }
-          array_elements += blocks.add(array.name, array.components, std::span(values));
-        },
-        array.values);
-  }
-
   // Particle i is the vertex of cell i: one array 0 ... n serves as vertices and, from its second
   // entry on, as ends of the cells.
   std::vector<std::int64_t> count(particles + 1);
   std::iota(count.begin(), count.end(), std::int64_t{0});
   const std::span<const std::int64_t> counted(count);
+  const detail::VtpCells vertices{"Verts", counted.first(particles), counted.last(particles)};
+  detail::write_polydata(path, positions_xyz, arrays, std::span(&vertices, 1), time, "particles");
+}
 
-  std::string head =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
-  head += time_element + "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(particles) +
-          "\" NumberOfVerts=\"" + std::to_string(particles) +
-          "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n" +
-          array_elements + "</PointData>\n<Points>\n" + blocks.add("Points", 3, positions_xyz) +
-          "</Points>\n<Verts>\n";
-  head += blocks.add("connectivity", 1, counted.first(particles));
-  head += blocks.add("offsets", 1, counted.last(particles));
-  head += "</Verts>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  const std::string tail = "\n</AppendedData>\n</VTKFile>\n";
+/// Lines or polygons, each between points that it lists by number.
+struct Cells {
+  std::vector<std::int64_t> connectivity{};  // points of all cells, one cell after the other
+  std::vector<std::int64_t> offsets{};       // end of each cell in `connectivity`
 
-  std::vector<std::span<const std::byte>> chunks{std::as_bytes(std::span(head))};
-  chunks.insert(chunks.end(), blocks.chunks().begin(), blocks.chunks().end());
-  chunks.push_back(std::as_bytes(std::span(tail)));
-  detail::replace_file(path, chunks);
+  std::size_t size() const { return offsets.size(); }
+  void add(std::initializer_list<std::int64_t> points) {
+    connectivity.insert(connectivity.end(), points);
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  /// A cell of `count` points in a row, from `first` on.
+  void add_row(std::int64_t first, std::int64_t count) {
+    for (std::int64_t k = 0; k < count; ++k) connectivity.push_back(first + k);
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+};
+
+/// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
+struct Mesh {
+  std::vector<double> points{};  // x, y, z of each point [m]
+  Cells lines{};
+  Cells polygons{};
+  std::vector<PointArray> arrays{};
+
+  std::size_t size() const { return points.size() / 3; }
+};
+
+/// Writes a mesh as a VTK XML PolyData file, as write_vtp does particles.
+///
+/// Throws std::invalid_argument if a length does not fit or a cell names a point that is not there,
+/// OutputError if writing fails.
+inline void write_vtp(const std::filesystem::path& path, const Mesh& mesh, double time) {
+  const auto points = static_cast<std::int64_t>(mesh.size());
+  const auto require = [&](const Cells& cells, const std::string& name) {
+    std::int64_t end = 0;
+    bool good = true;
+    for (const std::int64_t offset : cells.offsets)
+      good = good && offset > std::exchange(end, offset);
+    good = good && end == static_cast<std::int64_t>(cells.connectivity.size());
+    for (const std::int64_t point : cells.connectivity) good = good && point >= 0 && point < points;
+    if (!good)
+      throw std::invalid_argument("write_vtp: the " + name + " do not fit to the " +
+                                  std::to_string(points) + " points");
+  };
+  require(mesh.lines, "lines");
+  require(mesh.polygons, "polygons");
+  const detail::VtpCells cells[] = {{"Lines", mesh.lines.connectivity, mesh.lines.offsets},
+                                    {"Polys", mesh.polygons.connectivity, mesh.polygons.offsets}};
+  detail::write_polydata(path, std::span<const double>(mesh.points), mesh.arrays, cells, time,
+                         "points");
 }
 
 }  // namespace sphmbs::io

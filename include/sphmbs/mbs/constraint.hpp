@@ -65,4 +65,10 @@ concept FrictionalConstraint = Constraint<C> &&
   { joint.dissipation(q, q, t, q) } -> std::convertible_to<double>;
 };
 
+/// Constraint that stores energy, such as that of end stops: potential(q, t) [J].
+template <class C>
+concept StoringConstraint = Constraint<C> && requires(const C joint, VectorIn q, double t) {
+  { joint.potential(q, t) } -> std::convertible_to<double>;
+};
+
 }  // namespace sphmbs::mbs

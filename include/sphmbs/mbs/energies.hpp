@@ -31,7 +31,8 @@ Energies energies_at(System& equations, const Structure& structure, const State&
                                [&]<class T>(const auto& component, const Slot&, const Local& x) {
                                  if constexpr (Element<T>)
                                    e.strain += component.part.strain_energy(Vector<T::dofs>(x.q));
-                                 if constexpr (Force<T>) e.springs += component.potential(x.q, x.t);
+                                 if constexpr (Force<T> || StoringConstraint<T>)
+                                   e.springs += component.potential(x.q, x.t);
                                });
   return e;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <sphmbs/execution/first_error.hpp>
 #include <sphmbs/execution/openmp.hpp>
 #include <sphmbs/execution/serial.hpp>
 #include <sphmbs/mbs/layout.hpp>
@@ -70,15 +71,18 @@ class Equations {
   int topology() const { return topology_; }
 
   /// Computes all contributions at a state; with weights, those of the matrix too.
+  /// @throws NumericalFailure from a component that has no value at this state.
   void evaluate(const State& state, const MatrixWeights* weights = nullptr) {
     std::size_t first = 0;
     structure_.for_each_type([&]<class T>(const auto& components) {
+      execution::FirstError error;
       loop(components.size(), [&, first](std::size_t i) {
         const Slot& slot = layout_.slots[first + i];
         const Local local = gather(slot, state);
         Contribution out = contribution_of(slot, weights);
-        contribute<T>(components[i], local, out);
+        error.guard(i, [&] { contribute<T>(components[i], local, out); });
       });
+      error.rethrow();
       first += components.size();
     });
   }

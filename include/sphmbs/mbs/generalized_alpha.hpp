@@ -183,6 +183,7 @@ struct GeneralizedAlpha {
     text << "Generalized-alpha: Newton's method does not converge at t = " << failed.state.t
          << " s with a step of " << h << " s, after " << newton.max_halvings << " halvings";
     if (failed.course.singular) text << "; the iteration matrix is singular";
+    if (!failed.course.failure.empty()) text << "; " << failed.course.failure;
     if (!failed.course.iterations.empty()) {
       const NewtonIteration& last = failed.course.iterations.back();
       text << "; the largest residual, " << last.residual << ", is in "

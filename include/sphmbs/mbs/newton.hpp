@@ -53,6 +53,7 @@ struct NewtonIteration {
 struct NewtonCourse {
   std::vector<NewtonIteration> iterations;
   bool converged = false, singular = false;
+  std::string failure = {};  // what a component complained of, if that is why it ended
 
   /// Ratio of the last two corrections; 1 where there are not two.
   double rate() const {
@@ -86,7 +87,12 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
   for (int k = 0; k < options.max_iterations; ++k) {
     equations.relocate(state.q);
     const bool refactor = anew || !factors.serve(equations.topology(), w);
-    equations.evaluate(state, refactor ? &w : nullptr);
+    try {
+      equations.evaluate(state, refactor ? &w : nullptr);
+    } catch (const NumericalFailure& e) {
+      course.failure = e.what();
+      break;
+    }
     equations.residual(state.vdot, residual);
     NewtonIteration now{.refactored = refactor};
     now.residual = residual.cwiseAbs().maxCoeff(&now.worst);

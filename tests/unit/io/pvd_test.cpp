@@ -85,3 +85,16 @@ TEST_CASE("a pvd list that cannot be written is reported at once", "[io]") {
   CHECK_THROWS_AS(sphmbs::io::PvdCollection(directory.path / "missing" / "run.pvd"),
                   sphmbs::OutputError);
 }
+
+TEST_CASE("files of one time in a pvd list are told apart by their parts", "[io]") {
+  const Directory directory;
+  const std::filesystem::path path = directory.path / "run.pvd";
+  sphmbs::io::PvdCollection collection(path);
+  collection.add(0.5, "fields_0001.vtp");
+  collection.add(0.5, "bodies_0001.vtp", 1);
+  CHECK(entries(path) == Entries{{0.5, "fields_0001.vtp"}, {0.5, "bodies_0001.vtp"}});
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  CHECK(text.find("part=\"0\" file=\"fields_0001.vtp\"") != std::string::npos);
+  CHECK(text.find("part=\"1\" file=\"bodies_0001.vtp\"") != std::string::npos);
+}

@@ -160,11 +160,72 @@ TEST_CASE("a vtp file without particles is complete", "[io]") {
   CHECK(file.ends_with("</VTKFile>\n"));
 }
 
+TEST_CASE("a vtp file of a mesh holds its lines and polygons", "[io]") {
+  const Directory directory;
+  const std::filesystem::path path = directory.path / "mesh.vtp";
+  sphmbs::io::Mesh mesh;
+  for (int k = 0; k < 7; ++k) mesh.points.insert(mesh.points.end(), {0.5 * k, 1.0 * k * k, -1.0});
+  mesh.lines.add_row(0, 3);
+  mesh.lines.add({6, 0});
+  mesh.polygons.add({3, 4, 5, 6});
+  mesh.arrays = {{"number", 1, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6}}};
+  sphmbs::io::write_vtp(path, mesh, 0.25);
+
+  const std::string file = content(path);
+  const std::string piece = tag(file, "<Piece");
+  CHECK(attribute(piece, "NumberOfPoints") == "7");
+  CHECK(attribute(piece, "NumberOfVerts") == "0");
+  CHECK(attribute(piece, "NumberOfLines") == "2");
+  CHECK(attribute(piece, "NumberOfStrips") == "0");
+  CHECK(attribute(piece, "NumberOfPolys") == "1");
+  CHECK(bit_equal(block(file, "TimeValue"), std::vector<double>{0.25}));
+  CHECK(bit_equal(block(file, "Points"), mesh.points));
+  CHECK(bit_equal(block(file, "number"), std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6}));
+  const std::string lines = file.substr(file.find("<Lines>"));
+  const std::string polygons = file.substr(file.find("<Polys>"));
+  const auto in_section = [&](const std::string& section, const std::string& name) {
+    return block(
+               tag(section, "Name=\"" + name + "\"") + ">" + file.substr(file.find("</PolyData>")),
+               name)
+        .bytes;
+  };
+  const auto bytes = [](const std::vector<std::int64_t>& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()),
+                       values.size() * sizeof(std::int64_t));
+  };
+  CHECK(in_section(lines, "connectivity") == bytes({0, 1, 2, 6, 0}));
+  CHECK(in_section(lines, "offsets") == bytes({3, 5}));
+  CHECK(in_section(polygons, "connectivity") == bytes({3, 4, 5, 6}));
+  CHECK(in_section(polygons, "offsets") == bytes({4}));
+  CHECK(file.ends_with("\n</AppendedData>\n</VTKFile>\n"));
+}
+
+TEST_CASE("write_vtp refuses cells between points that are not there", "[io]") {
+  const Directory directory;
+  const std::filesystem::path path = directory.path / "wrong.vtp";
+  sphmbs::io::Mesh good{.points = std::vector<double>(6, 0.0)};
+  good.lines.add_row(0, 2);
+  for (const std::int64_t point : {-1, 2}) {
+    sphmbs::io::Mesh mesh = good;
+    mesh.polygons.add({0, 1, point});
+    CHECK_THAT(message_of<std::invalid_argument>([&] { sphmbs::io::write_vtp(path, mesh, 0.0); }),
+               Catch::Matchers::Contains("polygons do not fit to the 2 points"));
+  }
+  for (const std::int64_t end : {1, 3}) {
+    sphmbs::io::Mesh mesh = good;
+    mesh.lines.offsets = {end};
+    CHECK_THROWS_AS(sphmbs::io::write_vtp(path, mesh, 0.0), std::invalid_argument);
+  }
+  CHECK_FALSE(std::filesystem::exists(path));
+  CHECK_NOTHROW(sphmbs::io::write_vtp(path, good, 0.0));
+}
+
 TEST_CASE("names in a vtp file are escaped", "[io]") {
   const Directory directory;
   const std::vector<sphmbs::io::PointArray> arrays{
       {.name = "a<b> & \"c'", .values = std::vector<double>{1.0}}};
-  sphmbs::io::write_vtp(directory.path / "names.vtp", std::vector<double>{0.0, 0.0, 0.0}, arrays, 0.0);
+  sphmbs::io::write_vtp(directory.path / "names.vtp", std::vector<double>{0.0, 0.0, 0.0}, arrays,
+                        0.0);
   CHECK(contains(content(directory.path / "names.vtp"), "Name=\"a&lt;b&gt; &amp; &quot;c&apos;\""));
 }
 
@@ -191,7 +252,8 @@ TEST_CASE("write_vtp refuses arrays of the wrong length", "[io]") {
 
   const std::vector<sphmbs::io::PointArray> no_components{{.name = "p", .components = 0}};
   CHECK_THROWS_AS(sphmbs::io::write_vtp(path, points, no_components, 0.0), std::invalid_argument);
-  CHECK_THROWS_AS(sphmbs::io::write_vtp(path, std::vector<double>(4), {}, 0.0), std::invalid_argument);
+  CHECK_THROWS_AS(sphmbs::io::write_vtp(path, std::vector<double>(4), {}, 0.0),
+                  std::invalid_argument);
   CHECK_FALSE(std::filesystem::exists(path));
 }
 

@@ -19,40 +19,55 @@ using Words = std::vector<std::string>;
 struct Program {
   const char* path;
   const char* name;
+  bool gas = true;
 };
 
 const Program programs[] = {{SPHMBS_GAS_CYLINDER, "gas_cylinder"},
                             {SPHMBS_SEALED_CAVITY, "sealed_cavity"},
                             {SPHMBS_SHOCK_TUBE, "shock_tube"},
                             {SPHMBS_SHOCK_TUBE_2D, "shock_tube_2d"},
-                            {SPHMBS_SHOCK_TUBE_3D, "shock_tube_3d"}};
+                            {SPHMBS_SHOCK_TUBE_3D, "shock_tube_3d"},
+                            {SPHMBS_PENDULUM_ON_CABLE, "pendulum_on_cable", false},
+                            {SPHMBS_FALLING_PLATES, "falling_plates", false},
+                            {SPHMBS_FLEXIBLE_PENDULUM, "flexible_pendulum", false},
+                            {SPHMBS_SLIDER_CRANK, "slider_crank", false},
+                            {SPHMBS_SPINNING_TOP, "spinning_top", false}};
 
 struct Row {
   Words words;
   Words said;  // each appears in the line
 };
 
-/// What must be refused by every program.
-std::vector<Row> rows() {
+/// What must be refused by every program with gas, or by every one without.
+std::vector<Row> rows(bool gas) {
+  const std::string variable = gas ? "--cfl" : "--accuracy";
+  Words numbers{"--until", "--step", variable, "--threads"};
   std::vector<Row> all = {
-      {{"--spaceing", "0.5"}, {"--spaceing", "did you mean --spacing?"}},
       {{"--treads", "2"}, {"--treads", "did you mean --threads?"}},
       {{"--nothing-like-it", "2"}, {"--nothing-like-it", "--help"}},
       {{"0.5"}, {"0.5", "is not an option"}},
-      {{"--cfl", "0.2", "--step", "1e-3"}, {"--step 1e-3", "excludes --cfl"}},
-      {{"--cfl", "1.5"}, {"--cfl 1.5", "at most 1"}},
-      {{"--spacing", "1000"}, {"--spacing 1000", "must be"}},
+      {{variable, "0.2", "--step", "1e-3"}, {"--step 1e-3", "excludes " + variable}},
       {{"--backend", "cuda"}, {"--backend cuda", "openmp", "serial"}},
       {{"--backend", "serial", "--threads", "2"}, {"--threads 2", "serial"}},
-      {{"--spacing", "0.01", "--spacing", "0.01"}, {"--spacing", "more than once"}},
+      {{"--until", "0.01", "--until", "0.01"}, {"--until", "more than once"}},
       {{"--quiet=yes"}, {"--quiet", "takes no value"}}};
-  for (const char* option :
-       {"--spacing", "--until", "--step", "--cfl", "--threads", "--backend", "--output"})
+  if (gas) {
+    numbers.push_back("--spacing");
+    all.push_back({{"--spaceing", "0.5"}, {"--spaceing", "did you mean --spacing?"}});
+    all.push_back({{"--cfl", "1.5"}, {"--cfl 1.5", "at most 1"}});
+    all.push_back({{"--spacing", "1000"}, {"--spacing 1000", "must be"}});
+  } else {
+    all.push_back({{"--spacing", "0.5"}, {"--spacing", "is not an option"}});
+    all.push_back({{"--spectral-radius", "1.5"}, {"--spectral-radius 1.5", "from 0 to 1"}});
+    all.push_back({{"--spectral-radius", "nan"}, {"--spectral-radius nan", "from 0 to 1"}});
+  }
+  for (const std::string& option : numbers) {
     all.push_back({{option}, {option, "needs a value", "must be"}});
-  for (const char* option : {"--spacing", "--until", "--step", "--cfl", "--threads"})
     for (const char* value : {"abc", "1x", "nan", "inf", "-inf", "0", "-1", "1e400", "-1e400"})
-      all.push_back(
-          {{option, value}, {std::string(option) + " " + value + ":", "must be", "number"}});
+      all.push_back({{option, value}, {option + " " + value + ":", "must be", "number"}});
+  }
+  for (const char* option : {"--backend", "--output"})
+    all.push_back({{option}, {option, "needs a value", "must be"}});
   for (const char* value : {"1.5", "99999", "99999999999999999999"})
     all.push_back({{"--threads", value}, {std::string("--threads ") + value, "whole number"}});
   return all;
@@ -80,9 +95,8 @@ void check_refused(const test::Scratch& scratch, const Program& program, const W
 
 TEST_CASE("the programs refuse bad options and write nothing", "[programs]") {
   const test::Scratch scratch;
-  const auto table = rows();
   for (const Program& program : programs)
-    for (const Row& row : table) check_refused(scratch, program, row.words, row.said);
+    for (const Row& row : rows(program.gas)) check_refused(scratch, program, row.words, row.said);
 }
 
 TEST_CASE("the programs refuse what does not fit their case", "[programs]") {
@@ -95,6 +109,12 @@ TEST_CASE("the programs refuse what does not fit their case", "[programs]") {
   check_refused(scratch, cavity, {"--until", "1"}, {"--until 1", "at most 0.9 s"});
   for (const Program& tube : {programs[2], programs[3], programs[4]})
     check_refused(scratch, tube, {"--spacing", "0.1"}, {"--spacing 0.1", "at most 0.025 m"});
+  for (const Program& flexible : {programs[5], programs[6], programs[7]})
+    for (const char* elements : {"1", "-3", "2.5", "1000000"})
+      check_refused(scratch, flexible, {"--elements", elements},
+                    {std::string("--elements ") + elements, "whole number from 2 to"});
+  check_refused(scratch, programs[5], {"--measure", "hencky"},
+                {"--measure hencky", "green, engineering"});
 }
 
 TEST_CASE("the programs refuse a folder of results they cannot or may not fill", "[programs]") {
@@ -136,9 +156,13 @@ TEST_CASE("the programs answer --help and --version and write nothing", "[progra
     const auto help = test::start(scratch, program.path, {"--help"});
     CHECK(help.code == 0);
     CHECK(help.err.empty());
-    for (const char* option : {"--spacing", "--until", "--step", "--cfl", "--threads", "--backend",
-                               "--output", "--overwrite", "--quiet", "Exit codes"})
+    for (const char* option : {"--until", "--step", "--threads", "--backend", "--output",
+                               "--overwrite", "--quiet", "Exit codes"})
       CHECK_THAT(help.out, Catch::Contains(option));
+    for (const char* option : {"--spacing", "--cfl"})
+      CHECK((help.out.find(option) != std::string::npos) == program.gas);
+    for (const char* option : {"--accuracy", "--spectral-radius"})
+      CHECK((help.out.find(option) != std::string::npos) != program.gas);
     const auto version = test::start(scratch, program.path, {"--version"});
     CHECK(version.code == 0);
     CHECK(version.err.empty());

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Planar slider-crank without gravity, driven by a constant torque on its crank, against the exact
+// motion of its one degree of freedom.
+#include <sphmbs/mbs.hpp>
+#include <sphmbs/mbs/forces/torque.hpp>
+#include <sphmbs/mbs/joints/pinned.hpp>
+#include <sphmbs/mbs/joints/prismatic.hpp>
+#include <sphmbs/mbs/joints/revolute.hpp>
+#include <sphmbs/mbs/ncf/bar.hpp>
+#include <sphmbs/mbs/ncf/planar_body.hpp>
+
+#include "reference/slider_crank_curves.hpp"
+#include "support/backends.hpp"
+#include "support/guarded_main.hpp"
+#include "support/structure_session.hpp"
+
+using namespace sphmbs;
+using namespace sphmbs::mbs;
+using Mechanism = Structure<ncf::Bar, ncf::PlanarBody, joints::Joint<2>, forces::Torque<2>>;
+
+/// Crank OA, rod AB and slider at B, at rest in line.
+struct SliderCrank {
+  examples::SliderCrankMotion exact = {};  // data of the case, and its solution
+  Mechanism mechanism = {};
+  Placed<ncf::Bar> crank, rod;
+  Placed<ncf::PlanarBody> slider;
+  int pin_O;
+
+  SliderCrank()
+      : crank(mechanism.add(bar({0, 0}, {exact.crank, 0}, exact.crank_mass))),
+        rod(mechanism.add(bar({exact.crank, 0}, {exact.crank + exact.rod, 0}, exact.rod_mass))),
+        slider(mechanism.add(ncf::PlanarBody{
+            .inertia = {.mass = exact.slider_mass, .polar = 1e-4},  // [kg], [kg m^2]
+            .position = {exact.crank + exact.rod, 0}})) {
+    const VectorXd q = mechanism.q();
+    pin_O = mechanism.add(joints::pinned(crank.start(), q, "O"));
+    mechanism.add(joints::revolute(crank.end(), rod.start(), "A"));
+    mechanism.add(joints::revolute(rod.end(), slider.point({0, 0}), "B"));
+    mechanism.add(joints::prismatic(joints::ground_frame<2>({0, 0}), joints::frame(slider),
+                                    ground<2>({1, 0}), q, "guide"));
+    mechanism.add(forces::Torque<2>{.on = crank.vector(crank.part.start(), crank.part.end()),
+                                    .value = exact.torque});
+  }
+
+  static ncf::Bar bar(const Vector<2>& from, const Vector<2>& to, double mass) {
+    const double length = (to - from).norm();
+    return {.from = from,
+            .to = to,
+            .inertia = ncf::PlanarInertia{
+                .mass = mass, .centre = {length / 2, 0}, .polar = mass * length * length / 12}};
+  }
+};
+
+template <class Policy>
+void slider_crank(const examples::Settings& settings, int halvings, Policy) {
+  SliderCrank model;
+  using System = Dynamics<Mechanism, solvers::SparseLDLT, Policy>;
+  System system(model.mechanism);
+
+  examples::Session session(settings, "slider_crank", "slider-crank under a constant torque",
+                            system);
+  session.note("bodies", "crank 0.1 m, rod 0.3 m, 0.2 kg each, slider 0.4 kg, torque 0.1 N m");
+  examples::trace_slider_crank(session, model.crank, model.slider);
+  examples::record_reaction<joints::Joint<2>>(session, model.pin_O, "pin_O");
+  session.run(examples::integrator_of(settings), 200, 50);
+  examples::compare_with_reference(session, model.exact);
+  if (halvings > 0)
+    examples::report_order(session, model.exact, halvings, [&](double step) {
+      SliderCrank again;
+      System steps(again.mechanism);
+      std::vector<double> x;
+      run(
+          steps, examples::integrator_of(settings), {.until = settings.until, .step = step},
+          [](auto&, const sph::StepLimit&) {}, Every(session.trace_interval, [&](auto& s) {
+            x.push_back(again.slider.point({0, 0}).at(s.state().q)[0]);
+          }));
+      return x;
+    });
+  session.finish();
+}
+
+int main(int argc, char** argv) {
+  int halvings = 0;
+  examples::CommandLine command_line({.name = "slider_crank",
+                                      .title = "slider-crank under a constant torque",
+                                      .backends = examples::backends(),
+                                      .defaults = {.until = 1, .step = 1e-3},
+                                      .gas = false,
+                                      .structure = true});
+  command_line.add_whole_number("--halvings", halvings, {.at_least = 0, .at_most = 6}, "",
+                                "runs again with so many halved steps, and shows the order");
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    examples::with_backend(settings,
+                           [&](const auto& s, auto policy) { slider_crank(s, halvings, policy); });
+  });
+}

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sphmbs/io/structure_mesh.hpp>
+#include <sphmbs/mbs.hpp>
+
+#include "support/body_images.hpp"
+#include "support/session.hpp"
+
+namespace sphmbs::examples {
+
+/// Parts of a structure, drawn, at a time [s].
+struct Frame {
+  double time;
+  io::Mesh mesh;
+};
+
+/// What a session shows of a structure in motion: energies, its parts drawn curved, what the
+/// integrator did.
+template <class Structure, class Solver, class Policy>
+class Display<mbs::Dynamics<Structure, Solver, Policy>> {
+ public:
+  using System = mbs::Dynamics<Structure, Solver, Policy>;
+  static constexpr std::string_view collection = "bodies";
+
+  explicit Display(System& system) : system_(system), start_(system.energies()) {}
+
+  std::vector<io::CsvWriter::Column> columns() const {
+    return {{"kinetic", "J"},    {"strain", "J"}, {"potential", "J"}, {"springs", "J"},
+            {"dissipated", "J"}, {"work", "J"},   {"total", "J"}};
+  }
+  void sample(std::vector<double>& row) {
+    const mbs::Energies e = system_.energies();
+    row.insert(row.end(),
+               {e.kinetic, e.strain, e.potential, e.springs, e.dissipated, e.work, e.total()});
+    largest_kinetic_ = std::max(largest_kinetic_, e.kinetic);
+  }
+
+  void prepare() {}
+
+  std::vector<BannerLine> banner(const Settings& settings) {
+    const auto& equations = system_.equations();
+    std::vector<BannerLine> lines{{"structure", parts_text(),
+                                   format_count(equations.coordinates()) + " coordinates, " +
+                                       format_count(equations.conditions()) + " conditions"}};
+    for (const std::string& note : system_.start().notes) lines.push_back({"start", note, ""});
+    lines.push_back({"run", "until " + format_exact(settings.until) + " s",
+                     settings.backend + ", " + std::to_string(settings.threads) +
+                         (settings.threads == 1 ? " thread" : " threads")});
+    const std::string step = settings.step
+                                 ? "fixed at " + format_number(*settings.step, 6) + " s"
+                                 : "for an accuracy of " + format_exact(*settings.accuracy) + " m";
+    lines.push_back(
+        {"step", step,
+         "generalized-alpha, spectral radius " + format_exact(settings.spectral_radius)});
+    return lines;
+  }
+
+  void heed(const Settings&, Report&) const {}
+
+  void progress(Progress& state) const {
+    const mbs::DynamicsStatistics done = system_.statistics();
+    state.step = done.steps;
+    state.iterations = done.iterations;
+  }
+
+  std::vector<std::string> write(const std::filesystem::path& folder, const std::string&,
+                                 const std::string& number) {
+    const std::string name = std::string(collection) + "_" + number + ".vtp";
+    frames_.push_back({system_.time(), io::structure_mesh(system_.structure(), system_.state())});
+    io::write_vtp(folder / name, frames_.back().mesh, system_.time());
+    return {name};
+  }
+
+  std::vector<Phase> phases() const { return {}; }
+
+  void summarise(Summary& s) {
+    const mbs::DynamicsStatistics done = system_.statistics();
+    auto& equations = system_.equations();
+    equations.evaluate(system_.state());
+    const mbs::VectorXd phi = equations.conditions_residual();
+    s.structure = StructureCounts{
+        .coordinates = equations.coordinates(),
+        .conditions = equations.conditions(),
+        .redundant = static_cast<std::int64_t>(system_.start().redundant.size()),
+        .iterations = done.iterations,
+        .factorisations = done.factorisations,
+        .halvings = done.halvings,
+        .rejected = done.rejected,
+        .violation = phi.size() > 0 ? phi.cwiseAbs().maxCoeff() / system_.size() : 0};
+    s.steps = done.steps;
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    s.conservation = {.mass = nothing,
+                      .momentum = nothing,
+                      .energy = (system_.energies().total() - start_.total()) / largest_kinetic_};
+  }
+
+  /// All that was written, for pictures.
+  const std::vector<Frame>& frames() const { return frames_; }
+
+ private:
+  // "24 cables, 2 bars, 3 joints".
+  std::string parts_text() const {
+    std::string text;
+    int joints = 0, forces = 0;
+    const auto add = [&text](std::size_t count, const std::string& what) {
+      if (count == 0) return;
+      text += (text.empty() ? "" : ", ") + format_count(static_cast<std::int64_t>(count)) + " ";
+      const bool y = count > 1 && what.ends_with('y');
+      text += y ? what.substr(0, what.size() - 1) + "ies" : what + (count > 1 ? "s" : "");
+    };
+    system_.structure().for_each_type([&]<class T>(const auto& components) {
+      if constexpr (mbs::Part<T>)
+        add(components.size(), std::string(T::label));
+      else if constexpr (mbs::Constraint<T>)
+        joints += static_cast<int>(components.size());
+      else
+        forces += static_cast<int>(components.size());
+    });
+    add(static_cast<std::size_t>(joints), "joint");
+    add(static_cast<std::size_t>(forces), "force");
+    return text;
+  }
+
+  System& system_;
+  mbs::Energies start_;
+  double largest_kinetic_ = 0;
+  std::vector<Frame> frames_;
+};
+
+/// Generalized-alpha as the settings want it.
+inline mbs::GeneralizedAlpha integrator_of(const Settings& settings) {
+  mbs::GeneralizedAlpha integrator{.spectral_radius = settings.spectral_radius};
+  if (!settings.step) integrator.accuracy = settings.accuracy;
+  return integrator;
+}
+
+/// Coordinates of a point along the axes that are named, in trajectories.csv: columns <name>_x ...
+template <class System, int Dim>
+void trace_point(Session<System>& session, const std::string& name, const mbs::Marker<Dim>& point,
+                 std::string_view axes) {
+  for (const char axis : axes)
+    session.trace(name + "_" + axis, "m", [&system = session.system(), point, k = axis - 'x'] {
+      return point.at(system.state().q)[k];
+    });
+}
+
+/// The same of its velocity: columns <name>_vx ...
+template <class System, int Dim>
+void trace_velocity(Session<System>& session, const std::string& name,
+                    const mbs::Marker<Dim>& point, std::string_view axes) {
+  for (const char axis : axes)
+    session.trace(name + "_v" + axis, "m/s", [&system = session.system(), point, k = axis - 'x'] {
+      return point.rate(system.state().v)[k];
+    });
+}
+
+/// Records the force of a joint on its first part, or of a sliding joint on its slider, in
+/// history.csv: columns <name>_x ...
+/// @param number  what Structure::add returned for the joint
+template <class Joint, class System>
+void record_reaction(Session<System>& session, int number, const std::string& name) {
+  for (int k = 0; k < System::dim; ++k)
+    session.record(name + "_" + "xyz"[k], "N", [&system = session.system(), number, k] {
+      const Joint& joint =
+          system.structure().template all<Joint>()[static_cast<std::size_t>(number)];
+      const mbs::VectorXd lambda = system.template multipliers<Joint>(number);
+      if constexpr (requires { reaction(joint, system.state().q, 0.0, lambda); })
+        return reaction(joint, system.state().q, system.time(), lambda).force[k];
+      else
+        return -lambda[k];
+    });
+}
+
+/// Energies over the run as a panel.
+template <class System>
+Panel energy_panel(Session<System>& session) {
+  Panel panel{.title = "energy", .x_label = "t [s]", .y_label = "[J]"};
+  const History& history = session.history();
+  for (const char* name :
+       {"kinetic", "strain", "potential", "springs", "dissipated", "work", "total"}) {
+    const std::vector<double>& values = history.of(name);
+    const double first = values.empty() ? 0 : values.front();
+    Curve curve = history.curve(name, name);
+    const bool nothing = std::all_of(values.begin(), values.end(), [](double e) { return e == 0; });
+    if (nothing) continue;
+    if (std::string_view(name) == "potential") {
+      curve.label = "potential, from its start";
+      for (double& e : curve.y) e -= first;
+    }
+    if (std::string_view(name) == "total") {
+      curve.label = "change of the total";
+      for (double& e : curve.y) e -= first;
+    }
+    panel.curves.push_back(curve);
+  }
+  return panel;
+}
+
+/// Results for the largest magnitude of a panel's curves up to each of the times that the run has
+/// reached: largest_difference_to_0.4s ...
+template <class System>
+void report_difference(Session<System>& session, const Panel& difference,
+                       std::initializer_list<double> times) {
+  for (const double t : times) {
+    if (t > session.settings().until + 1e-9) continue;
+    double largest = 0;
+    for (const Curve& curve : difference.curves)
+      largest = std::max(largest, largest_until(curve, t));
+    session.result("largest_difference_to_" + format_exact(t) + "s", largest, std::nullopt, "m");
+  }
+}
+
+/// About so many of a session's frames, evenly spaced, first and last among them.
+template <class System>
+std::vector<Frame> some_frames(Session<System>& session, std::size_t count) {
+  const std::vector<Frame>& frames = session.display().frames();
+  std::vector<Frame> some;
+  const std::size_t last = frames.size() - 1;
+  const std::size_t pieces = std::min(last, count - 1);
+  for (std::size_t k = 0; k <= pieces; ++k)
+    some.push_back(frames[pieces > 0 ? k * last / pieces : 0]);
+  return some;
+}
+
+/// Paths of points in a plane, from the columns <name>_x, <name>_y of trajectories.csv, or of
+/// others in the places of x, y and z.
+inline io::Mesh paths_of(const History& traces, const std::vector<std::string>& names,
+                         std::string_view axes = "xy") {
+  io::Mesh mesh;
+  for (const std::string& name : names) {
+    const auto first = static_cast<std::int64_t>(mesh.size());
+    for (std::size_t k = 0; k < traces.time().size(); ++k)
+      for (const char axis : {'x', 'y', 'z'}) {
+        const bool given = axes.find(axis) != std::string_view::npos;
+        mesh.points.push_back(given ? traces.of(name + "_" + axis)[k] : 0.0);
+      }
+    mesh.lines.add_row(first, static_cast<std::int64_t>(traces.time().size()));
+  }
+  return mesh;
+}
+
+/// Draws frames into one picture of a plane, coloured by time, over the paths of some points.
+template <class System>
+void draw_motion(Session<System>& session, const std::string& name, const View& view,
+                 ImageOptions options, const std::vector<Frame>& frames,
+                 const io::Mesh& paths = {}) {
+  BodyTile tile{.layers = {{&paths, {}}}, .title = ""};
+  for (const Frame& frame : frames)
+    tile.layers.push_back({&frame.mesh, std::vector<double>(frame.mesh.size(), frame.time)});
+  options.title = session.title();
+  options.bar_label = "t [s]";
+  session.picture(name, [&](const std::filesystem::path& file) {
+    draw_bodies(file, std::span(&tile, 1), 1, view, options);
+  });
+}
+
+/// Draws frames side by side, coloured by speed.
+template <class System>
+void draw_frames(Session<System>& session, const std::string& name, const View& view,
+                 ImageOptions options, const std::vector<Frame>& frames, int columns) {
+  std::vector<BodyTile> tiles;
+  for (const Frame& frame : frames)
+    tiles.push_back({{{&frame.mesh, lengths_of(frame.mesh, "velocity [m/s]")}},
+                     "t = " + format_number(frame.time) + " s"});
+  options.title = session.title();
+  options.bar_label = "|v| [m/s]";
+  session.picture(name, [&](const std::filesystem::path& file) {
+    draw_bodies(file, tiles, columns, view, options);
+  });
+}
+
+}  // namespace sphmbs::examples
