@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "falling_plates",
                                       .title = "two hinged flexible plates that fall and swing",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 1, .step = 5e-4},
+                                      .defaults = {.until = 1, .step = 5e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--elements", options.elements, {.at_least = 2, .at_most = 100}, "",

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "flexible_pendulum",
                                       .title = "soft flexible pendulum",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 1, .step = 2.5e-4},
+                                      .defaults = {.until = 1, .step = 2.5e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--elements", elements, {.at_least = 2, .at_most = 1000}, "",

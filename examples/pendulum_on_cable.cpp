@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "pendulum_on_cable",
                                       .title = "double pendulum that slides along a cable",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 1, .step = 2.5e-4},
+                                      .defaults = {.until = 1, .step = 2.5e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--elements", options.elements, {.at_least = 2, .at_most = 1000},

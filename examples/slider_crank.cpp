@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "slider_crank",
                                       .title = "slider-crank under a constant torque",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 1, .step = 1e-3},
+                                      .defaults = {.until = 1, .step = 1e-3, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--halvings", halvings, {.at_least = 0, .at_most = 6}, "",

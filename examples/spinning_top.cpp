@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "spinning_top",
                                       .title = "heavy top that turns about a fixed point",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 2, .step = 1e-4},
+                                      .defaults = {.until = 2, .step = 1e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_number("--spin", spin, {.at_least = -1000, .at_most = 1000}, "rad/s",

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reference/falling_plates.hpp"
-#include "support/structure_session.hpp"
+#include "support/structure_pictures.hpp"
 
 namespace sphmbs::examples {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "reference/flexible_pendulum.hpp"
-#include "support/structure_session.hpp"
+#include "support/structure_pictures.hpp"
 
 namespace sphmbs::examples {
 

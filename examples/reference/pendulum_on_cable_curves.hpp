@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/pendulum_on_cable.hpp"
-#include "support/structure_session.hpp"
+#include "support/structure_pictures.hpp"
 
 namespace sphmbs::examples {
 

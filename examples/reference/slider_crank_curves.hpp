@@ -10,7 +10,7 @@
 #include <sphmbs/mbs/ncf/readout.hpp>
 
 #include "reference/slider_crank.hpp"
-#include "support/structure_session.hpp"
+#include "support/structure_pictures.hpp"
 
 namespace sphmbs::examples {
 

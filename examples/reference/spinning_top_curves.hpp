@@ -11,7 +11,7 @@
 #include <sphmbs/mbs/ncf/readout.hpp>
 
 #include "reference/spinning_top.hpp"
-#include "support/structure_session.hpp"
+#include "support/structure_pictures.hpp"
 
 namespace sphmbs::examples {
 

@@ -16,26 +16,13 @@
 #include <sphmbs/run.hpp>
 #include <sphmbs/version.hpp>
 
+#include "support/display.hpp"
 #include "support/history.hpp"
 #include "support/output_folder.hpp"
 #include "support/report.hpp"
 #include "support/text.hpp"
 
 namespace sphmbs::examples {
-
-/// What a session shows of a system: specialised for a gas (gas_session.hpp) and for a structure
-/// (structure_session.hpp).
-///   collection                    name of the list of its files, and of these
-///   columns()                     of the history, filled by sample(row)
-///   prepare()                     the system for its first output
-///   banner(settings)              lines below the notes
-///   heed(settings, report)        warnings
-///   progress(state)               adds its counts
-///   write(folder, title, number)  files of one time; @return the names of those to be listed
-///   phases()                      parts of the time that steps take
-///   summarise(summary)            adds its counts and what it conserves
-template <class System>
-class Display;
 
 /// What an example does around its system: banner, progress, history, trajectories, files of
 /// fields, pictures, summary.

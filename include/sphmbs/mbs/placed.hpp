@@ -31,7 +31,7 @@ struct Placed {
   }
 
   /// Own coordinates, out of all coordinates q of the structure.
-  Vector<P::dofs> local(const VectorXd& q) const {
+  Vector<P::dofs> local(VectorIn q) const {
     Vector<P::dofs> own;
     for (int i = 0; i < P::nodes; ++i)
       own.template segment<P::node_dofs>(i * P::node_dofs) =

@@ -13,6 +13,7 @@
 #include <sphmbs/mbs/constraint.hpp>
 #include <sphmbs/mbs/force.hpp>
 #include <sphmbs/mbs/placed.hpp>
+#include <sphmbs/mbs/placement.hpp>
 
 namespace sphmbs::mbs {
 
@@ -81,8 +82,8 @@ class Structure {
   Node add_node(const VectorXd& q) { return add_node(q, VectorXd::Zero(q.size())); }
 
   /// A part between existing nodes.
-  /// @throws InvalidInput naming the part and its nodes, for bad parameters or nodes that do not
-  /// fit.
+  /// @throws InvalidInput naming the part and its nodes, for bad parameters, for nodes that do not
+  ///         fit, and for an element without length or turned inside out.
   template <Part P>
   Placed<P> add(P part, const std::array<Node, static_cast<std::size_t>(P::nodes)>& nodes) {
     auto& parts = all<P>();
@@ -93,7 +94,11 @@ class Structure {
           node.size == P::node_dofs && node.offset >= 0 && node.offset + node.size <= coordinates(),
           name + ": size of its nodes", node.size,
           std::to_string(P::node_dofs) + " coordinates of this structure");
-    checked(name, [&] { part.check(); });
+    checked(name, [&] {
+      part.check();
+      if constexpr (Traceable<P>)
+        check_placement(part, placed.local(VectorXd::Map(q_.data(), coordinates())));
+    });
     parts.push_back(placed);
     return placed;
   }

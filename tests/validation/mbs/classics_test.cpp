@@ -102,4 +102,13 @@ TEST_CASE("spinning_top follows the reference at second order", "[spinning_top]"
                                  &Row::rate_1, 0.5) < 0.05);
   CHECK(test::largest_difference(fine.traces, "rate_3[rad/s]", reference::top_reference,
                                  &Row::rate_3, 0.5) < 0.05);
+  // The force of the joint and the weight move the centre of mass, at rest along z at first:
+  // m z(T) = integral of (T - t) (F - m g) dt, here by the trapezoidal rule.
+  const auto time = fine.history.column("t[s]"), force = fine.history.column("force_z[N]");
+  double z = 0;
+  for (std::size_t k = 0; k + 1 < time.size(); ++k) {
+    const auto moved = [&](std::size_t i) { return (2 - time[i]) * (force[i] / 15 - 9.81); };
+    z += (time[k + 1] - time[k]) / 2 * (moved(k) + moved(k + 1));
+  }
+  CHECK(z == Approx(fine.traces.column("centre_z[m]").back()).margin(0.02));
 }
