@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include <sphmbs/core/expects.hpp>
-#include <sphmbs/mbs/ncf/inertia.hpp>
 #include <sphmbs/mbs/ncf/planar.hpp>
+#include <sphmbs/mbs/ncf/planar_inertia.hpp>
 #include <sphmbs/mbs/part.hpp>
 
 namespace sphmbs::mbs::ncf {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <sphmbs/core/expects.hpp>
-#include <sphmbs/mbs/ncf/inertia.hpp>
 #include <sphmbs/mbs/ncf/outline.hpp>
 #include <sphmbs/mbs/ncf/planar.hpp>
+#include <sphmbs/mbs/ncf/planar_inertia.hpp>
 #include <sphmbs/mbs/part.hpp>
 
 namespace sphmbs::mbs::ncf {
