@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <Eigen/SparseLU>
 
@@ -74,7 +76,8 @@ class ConsistentStart {
     const VectorXd phi = equations_.conditions_residual();
     if (phi.size() == 0) return;
     const double error = 100 * phi.cwiseAbs().maxCoeff() / size_;
-    report_.redundant = redundant_rows(equations_.jacobian(), std::max(1e-9, error));
+    report_.redundant =
+        redundant_rows(equations_.jacobian(), rigidity_rows(), std::max(1e-9, error));
     if (report_.redundant.empty()) return;
     const std::string text =
         std::to_string(report_.redundant.size()) +
@@ -82,6 +85,17 @@ class ConsistentStart {
     if (options_.redundant == Redundant::refuse) throw InvalidInput(text);
     report_.notes.push_back(text + "; removed");
     equations_.remove(report_.redundant);
+  }
+
+  // Where a joint and the rigidity of a body hold the same, the joint is what is redundant.
+  std::vector<unsigned char> rigidity_rows() {
+    std::vector<unsigned char> rows(static_cast<std::size_t>(equations_.conditions()), 0);
+    equations_.for_each_component(state_,
+                                  [&]<class T>(const auto&, const Slot& slot, const Local&) {
+                                    if constexpr (Body<T>)
+                                      std::fill_n(rows.begin() + slot.first_condition, slot.m, 1);
+                                  });
+    return rows;
   }
 
   void check_positions() const {
