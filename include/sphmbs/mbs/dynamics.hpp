@@ -54,7 +54,7 @@ class Dynamics {
     start_ = ConsistentStart(equations_, state_, size_, options).run();
     algorithmic_ = state_.vdot;
     powers_ = powers_at(equations_, state_);
-    springs_at_start_ = energies_at(equations_, structure_, state_).springs;
+    springs_at_start_ = potential_of_forces(equations_, state_);
   }
 
   double time() const { return state_.t; }             // [s]
@@ -73,7 +73,7 @@ class Dynamics {
   Energies energies() {
     Energies e = energies_at(equations_, structure_, state_);
     e.dissipated = dissipated_;
-    e.work = work_ + e.springs - springs_at_start_;
+    e.work = work_ + potential_of_forces(equations_, state_) - springs_at_start_;
     return e;
   }
 

@@ -11,7 +11,7 @@ struct Energies {
   double kinetic = 0;     // 1/2 v.M v [J]
   double strain = 0;      // of flexible elements [J]
   double potential = 0;   // of gravity, zero at the origin [J]
-  double springs = 0;     // potential of forces that have one [J]
+  double springs = 0;     // potential of forces and end stops that have one [J]
   double dissipated = 0;  // by dampers, friction and internal damping since t = 0 [J]
   double work = 0;        // done by loads, drives and forces from outside since t = 0 [J]
 
@@ -37,8 +37,19 @@ Energies energies_at(System& equations, const Structure& structure, const State&
   return e;
 }
 
+/// Potential of forces alone, without that of end stops: what `Powers::work` includes.
+template <class System>
+double potential_of_forces(System& equations, const State& state) {
+  double sum = 0;
+  equations.for_each_component(state,
+                               [&]<class T>(const auto& component, const Slot&, const Local& x) {
+                                 if constexpr (Force<T>) sum += component.potential(x.q, x.t);
+                               });
+  return sum;
+}
+
 /// Powers at a state: of everything that damps, and of all else that forces, drives and the outside
-/// do, springs included.
+/// do, springs included, end stops not.
 struct Powers {
   double dissipated = 0;  // [W]
   double work = 0;        // [W]

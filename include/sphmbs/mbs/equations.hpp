@@ -76,7 +76,7 @@ class Equations {
     std::size_t first = 0;
     structure_.for_each_type([&]<class T>(const auto& components) {
       execution::FirstError error;
-      loop(components.size(), [&, first](std::size_t i) {
+      loop(components.size(), many_components, [&, first](std::size_t i) {
         const Slot& slot = layout_.slots[first + i];
         const Local local = gather(slot, state);
         Contribution out = contribution_of(slot, weights);
@@ -91,7 +91,7 @@ class Equations {
   void residual(const VectorXd& vdot, VectorXd& result) const {
     result.resize(unknowns());
     const Vector<dim> g = load_factor_ * structure_.gravity;
-    loop(as_size(unknowns()), [&](std::size_t i) {
+    loop(as_size(unknowns()), many_unknowns, [&](std::size_t i) {
       double sum = 0;
       for (std::size_t s = layout_.vector_begin[i]; s < layout_.vector_begin[i + 1]; ++s)
         sum += vectors_[layout_.vector_sources[s]];
@@ -114,7 +114,7 @@ class Equations {
     std::copy_n(layout_.zeros.innerIndexPtr(), layout_.zeros.nonZeros(), result.innerIndexPtr());
     std::copy_n(layout_.zeros.outerIndexPtr(), unknowns() + 1, result.outerIndexPtr());
     const int* outer = result.outerIndexPtr();
-    loop(as_size(unknowns()), [&](std::size_t column) {
+    loop(as_size(unknowns()), many_unknowns, [&](std::size_t column) {
       for (int k = outer[column]; k < outer[column + 1]; ++k)
         result.valuePtr()[k] =
             weights.mass * layout_.mass[as_size(k)] + layout_.pattern.sum(as_size(k), matrices_);
@@ -176,11 +176,12 @@ class Equations {
  private:
   static std::size_t as_size(int n) { return static_cast<std::size_t>(n); }
 
-  // Starting threads costs more than a short loop takes.
+  // From here on a loop is worth the start of threads.
+  static constexpr std::size_t many_components = 64, many_unknowns = 1000;
+
   template <class Body>
-  static void loop(std::size_t n, const Body& body) {
-    constexpr std::size_t worth_threads = 64;
-    if (n < worth_threads)
+  static void loop(std::size_t n, std::size_t many, const Body& body) {
+    if (n < many)
       execution::Serial::for_each(n, body);
     else
       Policy::for_each(n, body);

@@ -92,8 +92,8 @@ struct GeneralizedAlpha {
     return next;
   }
 
-  // In the metric of the iteration matrix at the new state: with that of an earlier one, corrections
-  // across the conditions of then would have a part along those of now, and add up.
+  // In the metric of the iteration matrix at the new state: with that of an earlier one,
+  // corrections across the conditions of then would have a part along those of now, and add up.
   template <class System>
   static void project(System& system, Attempt& next, const MatrixWeights& w) {
     auto& equations = system.equations();
@@ -177,6 +177,18 @@ struct GeneralizedAlpha {
     }
   }
 
+  // Of joints, not of bodies: -1 without joints.
+  template <class Equations>
+  static int most_loaded_condition(Equations& equations, const State& state) {
+    int most = -1;
+    equations.for_each_component(state, [&]<class T>(const auto&, const Slot& slot, const Local&) {
+      if constexpr (Constraint<T>)
+        for (int k = slot.first_condition; k < slot.first_condition + slot.m; ++k)
+          if (most < 0 || std::abs(state.lambda[k]) > std::abs(state.lambda[most])) most = k;
+    });
+    return most;
+  }
+
   template <class System>
   [[noreturn]] void fail(System& system, const Attempt& failed, double h) const {
     std::ostringstream text;
@@ -189,6 +201,10 @@ struct GeneralizedAlpha {
       text << "; the largest residual, " << last.residual << ", is in "
            << system.equations().name_of(last.worst);
     }
+    const int joint = most_loaded_condition(system.equations(), failed.state);
+    if (joint >= 0)
+      text << "; the most loaded joint is " << system.equations().name_of_condition(joint)
+           << ", with a multiplier of " << failed.state.lambda[joint];
     text << ". Try a shorter step, a smaller spectral_radius, or check that joints do not lock.\n"
          << failed.course.table();
     throw NumericalFailure(text.str());

@@ -195,7 +195,9 @@ auto line(Structure<Types...>& structure,
           "given with their value and their gradient, or not at all");
   expects(!spec.closed || (spec.curve.value && !spec.first_node && !spec.last_node), "line: closed",
           spec.closed, "false without a curve, or with nodes to begin or end with");
-  const auto [shape, length] = detail::line_shape(spec);
+  const auto course = detail::line_shape(spec);  // no structured binding: lambdas use it
+  const auto& shape = course.first;
+  const double length = course.second;
   const Made element = detail::line_element_of(spec, length / spec.elements);
 
   const Vector<Made::dim> start = shape.value(0);
