@@ -23,13 +23,18 @@ struct Modes {
 /// enter; of an unsymmetric stiffness the symmetric half is taken. Dense: memory grows with the
 /// square and time with the cube of the coordinates, seconds for 1000, minutes for 4000.
 /// @param state  with the multipliers of an equilibrium, such as that of equilibrium()
-/// @throws InvalidInput beyond 6000 coordinates; NumericalFailure where a motion has no mass.
-template <class Structure>
+/// @throws InvalidInput beyond 6000 coordinates, and for a state of another structure;
+///         NumericalFailure where a motion has no mass.
+template <class Policy = execution::OpenMP, class Structure>
 Modes eigenmodes(Structure& structure, const State& state) {
   constexpr int most = 6000;
   const int n = structure.coordinates();
   expects(n <= most, "number of coordinates", n, "at most 6000 for the dense eigenvalue problem");
-  Equations<Structure> equations(structure);
+  expects(state.q.size() == n && state.v.size() == n, "state: number of coordinates",
+          state.q.size(), std::to_string(n) + ", with as many rates");
+  Equations<Structure, Policy> equations(structure);
+  expects(state.lambda.size() == equations.conditions(), "state: number of multipliers",
+          state.lambda.size(), std::to_string(equations.conditions()));
   equations.relocate(state.q);
   const MatrixWeights weights{0, 0};
   equations.evaluate(state, &weights);
@@ -52,6 +57,15 @@ Modes eigenmodes(Structure& structure, const State& state) {
   if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
     throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.");
   return {solver.eigenvalues(), Z * solver.eigenvectors()};
+}
+
+/// The same about the coordinates at t = 0 of a structure that is free of stress there.
+template <class Policy = execution::OpenMP, class Structure>
+Modes eigenmodes(Structure& structure) {
+  const VectorXd still = VectorXd::Zero(structure.coordinates());
+  State state{.t = 0, .q = structure.q(), .v = still, .vdot = still, .lambda = {}};
+  state.lambda = VectorXd::Zero(Equations<Structure, Policy>(structure).conditions());
+  return eigenmodes<Policy>(structure, state);
 }
 
 }  // namespace sphmbs::mbs

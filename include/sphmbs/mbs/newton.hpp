@@ -84,6 +84,8 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
   const int n = equations.coordinates();
   bool anew = options.refactor != Refactor::when_slow;
   VectorXd residual, x;
+  const double far = 10 * std::max(size, state.q.cwiseAbs().maxCoeff()) / size;  // leads nowhere
+  double largest = 0;
   for (int k = 0; k < options.max_iterations; ++k) {
     equations.relocate(state.q);
     const bool refactor = anew || !factors.serve(equations.topology(), w);
@@ -114,7 +116,9 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
       course.converged = true;
       break;
     }
-    if (k > 2 && rate > 2 && refactor) break;
+    // Corrections of stiff and soft directions take turns: growth alone is no sign of failure.
+    largest = std::max(largest, now.correction);
+    if (now.correction > far || (k > 2 && refactor && now.correction >= largest)) break;
     anew = options.refactor == Refactor::every_iteration ||
            (options.refactor == Refactor::when_slow && k > 0 && rate > options.slow_rate) ||
            (options.refactor == Refactor::every_step && k > 0 && rate > 0.9);

@@ -14,7 +14,9 @@ namespace sphmbs::mbs::forces {
 /// and w (a rigid body's, or gradients): virtual work m . delta phi, phi the turning of the triad
 /// of u, u x w and their product. With n = u x w and g = n / |n|^2,
 ///   Q_u = m x u / |u|^2 - (m . u) (u . w) / |u|^2 g,    Q_w = (m . u) g,
-/// whose moment u x Q_u + w x Q_w is m. With the second pair, another part takes -m.
+/// whose moment u x Q_u + w x Q_w is m. The part of m along n acts on u alone: where u and w may
+/// shear against each other, as the directors of a beam's end do, take two couples of half the
+/// moment on (u, w) and on (w, u). With the second pair, another part takes -m.
 struct Couple {
   static constexpr bool is_load = true;
   static constexpr int dim = 3;
