@@ -22,9 +22,7 @@ void hot_spot() {
                     {.rho = 1.2, .p = 1e5}, {dx, 1.8});
 
   sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = 1.4}}, domain, std::move(cloud));
-  run(
-      fluid, time::PredictorCorrector{}, {.until = 1e-3}, [](const auto&, const sph::StepLimit&) {},
-      Every(1e-4, [](auto& f) {
+  run(fluid, time::PredictorCorrector{}, {.until = 1e-3}, no_report, Every(1e-4, [](auto& f) {
         const auto centre = f.sample({0.5, 0.5});
         std::printf("t = %.1e s  p = %.4g Pa  energy of gas and walls %.10g J\n", f.time(),
                     centre.p, f.totals().energy() + f.totals().virtual_internal);

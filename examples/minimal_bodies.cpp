@@ -30,9 +30,8 @@ void swing() {
 
   Dynamics system(mechanism);
   const Marker<2> tip = bar.end();
-  run(
-      system, GeneralizedAlpha{.spectral_radius = 0.8}, {.until = 1, .step = 1e-3},
-      [](const auto&, const sph::StepLimit&) {}, Every(0.1, [&](auto& s) {
+  run(system, GeneralizedAlpha{.spectral_radius = 0.8}, {.until = 1, .step = 1e-3}, no_report,
+      Every(0.1, [&](auto& s) {
         const Vector<2> r = tip.at(s.state().q);
         const VectorXd force = s.template multipliers<joints::Joint<2>>(hook);
         std::printf("t = %.1f s  tip (%+.4f, %+.4f) m  pull on the hook %.2f N  energy %+.6f J\n",

@@ -30,6 +30,9 @@ struct Schedule {
 /// Whether steps are shortened so that an observer sees exactly the times it asks for.
 enum class Timing { exact, next_step };
 
+/// A report of steps to nobody.
+inline constexpr auto no_report = [](const auto& /*system*/, const auto& /*limit*/) {};
+
 /// Calls an action at time 0, at every multiple of an interval (or at the first step after it), and
 /// at the end.
 template <class Action>

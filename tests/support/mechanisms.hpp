@@ -48,17 +48,15 @@ Mechanism double_pendulum(const sphmbs::mbs::ncf::Bar& upper = thin_bar({0, 0}, 
 template <class System>
 void advance(System& system, const sphmbs::mbs::GeneralizedAlpha& integrator, double until,
              double step) {
-  sphmbs::run(system, integrator, {.until = until, .step = step},
-              [](const auto&, const sphmbs::sph::StepLimit&) {});
+  sphmbs::run(system, integrator, {.until = until, .step = step}, sphmbs::no_report);
 }
 
 /// The same, with look(system) at t = 0 and after each step.
 template <class System, class Look>
 void advance(System& system, const sphmbs::mbs::GeneralizedAlpha& integrator, double until,
              double step, Look&& look) {
-  sphmbs::run(
-      system, integrator, {.until = until, .step = step},
-      [](const auto&, const sphmbs::sph::StepLimit&) {}, sphmbs::Every(step, look));
+  sphmbs::run(system, integrator, {.until = until, .step = step}, sphmbs::no_report,
+              sphmbs::Every(step, look));
 }
 
 /// Largest violation of a condition [m].

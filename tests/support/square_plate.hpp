@@ -12,10 +12,11 @@ namespace test {
 
 enum class Edges { supported, clamped, cantilever, free };
 
-/// A vector among the coordinates of a node of plates: r, r_x, r_y, r_xy for k = 0 ... 3.
-inline sphmbs::mbs::Marker<3> nodal_vector(const sphmbs::mbs::Node& node, int k) {
-  const int first = node.offset + 3 * k;
-  return {.index = {first, first + 1, first + 2}, .N = sphmbs::mbs::Matrix<3, 3>::Identity()};
+/// A vector among the coordinates of the node at (x, y): r, r_x, r_y, r_xy for k = 0 ... 3.
+template <class Grid>
+sphmbs::mbs::Marker<3> nodal_vector(const Grid& grid, double x, double y, int k) {
+  if (k == 0) return grid.point(x, y);
+  return k == 3 ? grid.twist(x, y) : grid.gradient(x, y, k - 1);
 }
 
 /// Whether edges hold the transverse part of a nodal vector. Supported ones hold w and its slope
@@ -47,11 +48,11 @@ sphmbs::mbs::ancf::Grid<P> square_plate(Structure& structure, int n, Edges edges
     for (int i = 0; i <= n; ++i)
       for (int k = 0; k < P::node_dofs / 3; ++k)
         if (holds(edges, i == 0 || i == n, j == 0 || j == n, i == 0, k))
-          hold(nodal_vector(grid.node(i, j), k), 2);
+          hold(nodal_vector(grid, i * grid.length() / n, j * grid.width() / n, k), 2);
   if (edges == Edges::free) return grid;
-  hold(nodal_vector(grid.node(0, 0), 0), 0);
-  hold(nodal_vector(grid.node(0, 0), 0), 1);
-  hold(nodal_vector(grid.node(0, n), 0), 0);
+  hold(grid.corner(0, 0), 0);
+  hold(grid.corner(0, 0), 1);
+  hold(grid.corner(0, 1), 0);
   return grid;
 }
 

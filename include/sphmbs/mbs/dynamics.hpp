@@ -54,7 +54,7 @@ class Dynamics {
     start_ = ConsistentStart(equations_, state_, size_, options).run();
     algorithmic_ = state_.vdot;
     powers_ = powers_at(equations_, state_);
-    springs_at_start_ = potential_of_forces(equations_, state_);
+    stored_at_start_ = potential_of_forces(equations_, state_);
   }
 
   double time() const { return state_.t; }             // [s]
@@ -73,7 +73,7 @@ class Dynamics {
   Energies energies() {
     Energies e = energies_at(equations_, structure_, state_);
     e.dissipated = dissipated_;
-    e.work = work_ + potential_of_forces(equations_, state_) - springs_at_start_;
+    e.work = work_ + potential_of_forces(equations_, state_) - stored_at_start_;
     return e;
   }
 
@@ -91,8 +91,11 @@ class Dynamics {
   /// @{
   Factors<Solver>& factors() { return factors_; }
   DynamicsStatistics& counts() { return statistics_; }
-  /// The auxiliary acceleration of generalized-alpha [per s^2].
-  const VectorXd& algorithmic_acceleration() const { return algorithmic_; }
+  /// The auxiliary acceleration of generalized-alpha for a step of length h [per s^2].
+  VectorXd algorithmic_acceleration(double h) const {
+    const double share = last_step_ > 0 ? h / last_step_ : 1;
+    return state_.vdot + share * (algorithmic_ - state_.vdot);
+  }
   /// Step that an error estimate suggests [s]; infinite before the first one.
   double suggested_step() const { return suggested_step_; }
   void suggest_step(double dt) { suggested_step_ = dt; }
@@ -101,6 +104,7 @@ class Dynamics {
   /// @throws NumericalFailure where a joint ends the run, or a removed condition is violated.
   void accept(State state, VectorXd algorithmic) {
     const double dt = state.t - state_.t;
+    last_step_ = dt;
     state_ = std::move(state);
     algorithmic_ = std::move(algorithmic);
     ++statistics_.steps;
@@ -127,7 +131,9 @@ class Dynamics {
         std::ostringstream text;
         text << "t = " << state_.t << " s: " << equations_.name_of_condition(k)
              << ", taken for redundant at the start, is violated by " << std::abs(phi[k])
-             << ": the joints contradict each other away from the initial position.";
+             << ": the joints contradict each other away from the initial position, or that was a "
+                "singular one, such as bars in line, where they seem to hold the same; then start "
+                "elsewhere.";
         throw NumericalFailure(text.str());
       }
   }
@@ -139,10 +145,10 @@ class Dynamics {
   VectorXd algorithmic_;
   StartReport start_;
   DynamicsStatistics statistics_;
-  double size_ = 1;
+  double size_ = 1, last_step_ = 0;
   double suggested_step_ = std::numeric_limits<double>::infinity();
   Powers powers_;
-  double dissipated_ = 0, work_ = 0, springs_at_start_ = 0;
+  double dissipated_ = 0, work_ = 0, stored_at_start_ = 0;
 };
 
 }  // namespace sphmbs::mbs

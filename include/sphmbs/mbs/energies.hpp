@@ -37,19 +37,21 @@ Energies energies_at(System& equations, const Structure& structure, const State&
   return e;
 }
 
-/// Potential of forces alone, without that of end stops: what `Powers::work` includes.
+/// Potential of forces whose power `Powers::work` includes.
 template <class System>
 double potential_of_forces(System& equations, const State& state) {
   double sum = 0;
   equations.for_each_component(state,
                                [&]<class T>(const auto& component, const Slot&, const Local& x) {
-                                 if constexpr (Force<T>) sum += component.potential(x.q, x.t);
+                                 if constexpr (Force<T>)
+                                   if (!is_conservative(component))
+                                     sum += component.potential(x.q, x.t);
                                });
   return sum;
 }
 
-/// Powers at a state: of everything that damps, and of all else that forces, drives and the outside
-/// do, springs included, end stops not.
+/// Powers at a state: of everything that damps, and of what drives, the outside and forces do that
+/// are not conservative.
 struct Powers {
   double dissipated = 0;  // [W]
   double work = 0;        // [W]
@@ -71,11 +73,12 @@ Powers powers_at(System& equations, const State& state) {
           p.work += rate.dot(x.lambda);
         }
         if constexpr (Force<T>) {
+          const double damped = component.dissipation(x.q, x.v, x.t);
+          p.dissipated += damped;
+          if (is_conservative(component)) return;
           VectorXd Q = VectorXd::Zero(slot.n);
           component.force(x.q, x.v, x.t, Q);
-          const double damped = component.dissipation(x.q, x.v, x.t);
           p.work += Q.dot(x.v) + damped;
-          p.dissipated += damped;
         }
       });
   return p;

@@ -30,9 +30,10 @@ class Equations {
  public:
   static constexpr int dim = Structure::dim;
 
-  /// Keeps a reference to the structure.
+  /// Keeps a reference to the structure, which must be complete.
+  /// @throws InvalidInput for a structure without parts, and for gravity that is not finite.
   explicit Equations(Structure& structure)
-      : structure_(structure),
+      : structure_(checked(structure)),
         external_(VectorXd::Zero(structure.coordinates())),
         mass_(assemble_mass(structure)) {
     lay_out_again();
@@ -49,6 +50,8 @@ class Equations {
   /// Generalized force from outside, such as that of a gas [N per coordinate].
   VectorXd& external_force() { return external_; }
   const VectorXd& external_force() const { return external_; }
+  /// Magnitude of the gravity that acts [m/s^2].
+  double weight() const { return std::abs(load_factor_) * structure_.gravity.norm(); }
   /// Share of gravity and loads that acts: 1 but in statics.
   void set_load_factor(double factor) { load_factor_ = factor; }
 
@@ -71,8 +74,13 @@ class Equations {
   int topology() const { return topology_; }
 
   /// Computes all contributions at a state; with weights, those of the matrix too.
-  /// @throws NumericalFailure from a component that has no value at this state.
+  /// @throws NumericalFailure from a component that has no value at this state; InvalidInput where
+  ///         the structure has got other parts, joints or forces since.
   void evaluate(const State& state, const MatrixWeights* weights = nullptr) {
+    if (structure_.coordinates() != coordinates() ||
+        structure_.components() != layout_.slots.size())
+      throw InvalidInput(
+          "structure = changed since its equations were made: must be complete then");
     std::size_t first = 0;
     structure_.for_each_type([&]<class T>(const auto& components) {
       execution::FirstError error;
@@ -174,6 +182,14 @@ class Equations {
   std::string name_of_condition(int condition) const { return name_of(coordinates() + condition); }
 
  private:
+  static Structure& checked(Structure& structure) {
+    expects(structure.coordinates() > 0, "structure: number of coordinates", 0,
+            "1 or more: it needs a part");
+    expects(structure.gravity.allFinite(), "gravity", structure.gravity.transpose(),
+            "finite [m/s^2]");
+    return structure;
+  }
+
   static std::size_t as_size(int n) { return static_cast<std::size_t>(n); }
 
   // From here on a loop is worth the start of threads.

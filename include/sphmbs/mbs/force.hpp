@@ -32,4 +32,17 @@ concept Force = std::copyable<F> &&
 template <class F>
 concept Load = Force<F> && F::is_load;
 
+/// Whether all power of a force but its damping comes out of its potential, Q.v = -dU/dt -
+/// dissipation: forces may say so by conservative(), so that no quadrature of their power enters
+/// the work done from outside.
+template <Force F>
+bool is_conservative(const F& load) {
+  if constexpr (requires {
+                  { load.conservative() } -> std::convertible_to<bool>;
+                })
+    return load.conservative();
+  else
+    return false;
+}
+
 }  // namespace sphmbs::mbs

@@ -16,14 +16,17 @@ namespace sphmbs::mbs {
 ///   q_{n+1} = q_n + h v_n + h^2 ((1/2 - beta) a_n + beta a_{n+1})
 ///   v_{n+1} = v_n + h ((1 - gamma) a_n + gamma a_{n+1})
 ///
-/// with vdot, lambda and Phi = 0 from eq. (25) at t_{n+1}. Without numerical damping, errors of
-/// multipliers and of velocities across the conditions would grow from step to step (Cardona and
-/// Geradin, Comput. Struct. 33, 1989); they are therefore projected onto dPhi/dt = 0 and
-/// d2Phi/dt2 = 0 after each step where the spectral radius is above `project_above`.
+/// with vdot, lambda and Phi = 0 from eq. (25) at t_{n+1}. On curved conditions this alone is
+/// unstable where bodies turn by more than about 1 - spectral_radius in a step: errors of
+/// multipliers and of velocities across the conditions grow from step to step (without damping at
+/// any step: Cardona and Geradin, Comput. Struct. 33, 1989). v and vdot are therefore projected
+/// onto dPhi/dt = 0 and d2Phi/dt2 = 0 after each step that has left the first. Where the step
+/// changes, a_n, which belongs to a time ahead of t_n by a share of the step, is moved there:
+/// vdot_n + (h/h_old) (a_n - vdot_n).
 struct GeneralizedAlpha {
   double spectral_radius = 0.8;  // at infinite frequency: 1 damps nothing, 0 at once [-]
   Newton newton = {};
-  double project_above = 0.95;          // spectral radius [-]
+  bool project = true;                  // velocities and accelerations onto the conditions
   std::optional<double> accuracy = {};  // of a coordinate in a step [m]; without it, fixed steps
 
   /// @throws InvalidInput for numbers out of range.
@@ -32,7 +35,6 @@ struct GeneralizedAlpha {
             "between 0 and 1");
     if (accuracy)
       expects(std::isfinite(*accuracy) && *accuracy > 0, "accuracy", *accuracy, "positive [m]");
-    expects(!std::isnan(project_above), "project_above", project_above, "a number");
     newton.check();
   }
 
@@ -67,7 +69,7 @@ struct GeneralizedAlpha {
 
   struct Attempt {
     State state;
-    VectorXd algorithmic;
+    VectorXd before, algorithmic;  // a_n, a_{n+1}
     NewtonCourse course;
   };
 
@@ -76,8 +78,8 @@ struct GeneralizedAlpha {
     const auto [alpha_m, alpha_f, gamma, beta] = coefficients();
     const MatrixWeights w{(1 - alpha_m) / (h * h * beta * (1 - alpha_f)), gamma / (h * beta)};
     const State& old = system.state();
-    const VectorXd& a = system.algorithmic_acceleration();
-    Attempt next{old, {}, {}};
+    Attempt next{old, system.algorithmic_acceleration(h), {}, {}};
+    const VectorXd& a = next.before;
     // The guess for vdot is that of the last step.
     next.algorithmic =
         (alpha_f * old.vdot - alpha_m * a + (1 - alpha_f) * old.vdot) / (1 - alpha_m);
@@ -87,20 +89,30 @@ struct GeneralizedAlpha {
     next.course =
         newton_solve(system.equations(), system.factors(), next.state, w, newton, system.size());
     next.algorithmic += (1 - alpha_f) / (1 - alpha_m) * (next.state.vdot - old.vdot);
-    if (next.course.converged && spectral_radius > project_above) project(system, next, w);
+    if (next.course.converged && project) project_rates(system, next, w);
     system.counts().iterations += static_cast<long>(next.course.iterations.size());
     return next;
+  }
+
+  // As they do where all conditions are linear. Phi_q is that of the last iteration.
+  template <class System>
+  static bool rates_hold(System& system, const State& state) {
+    constexpr double negligible = 1e-11;
+    auto& equations = system.equations();
+    const VectorXd rate = without_removed(equations, rate_of_conditions(equations, state));
+    return rate.cwiseAbs().maxCoeff() <=
+           negligible * std::max(1.0, system.size()) * state.v.cwiseAbs().maxCoeff();
   }
 
   // In the metric of the iteration matrix at the new state: with that of an earlier one,
   // corrections across the conditions of then would have a part along those of now, and add up.
   template <class System>
-  static void project(System& system, Attempt& next, const MatrixWeights& w) {
+  static void project_rates(System& system, Attempt& next, const MatrixWeights& w) {
     auto& equations = system.equations();
     auto& factors = system.factors();
     State& state = next.state;
     const int n = equations.coordinates(), m = equations.conditions();
-    if (m == 0) return;
+    if (m == 0 || rates_hold(system, state)) return;
     equations.evaluate(state, &w);
     VectorXd residual = VectorXd::Zero(n + m), x;
     residual.tail(m) = without_removed(equations, rate_of_conditions(equations, state));
@@ -144,10 +156,9 @@ struct GeneralizedAlpha {
   template <class System>
   double adaptive_step(System& system, double bound) const {
     const double beta = coefficients().beta;
-    const VectorXd& a = system.algorithmic_acceleration();
     double h = std::min(bound, system.suggested_step());
     if (!std::isfinite(system.suggested_step())) {
-      const double largest = a.cwiseAbs().maxCoeff();
+      const double largest = system.state().vdot.cwiseAbs().maxCoeff();
       if (largest > 0) h = std::min(h, std::sqrt(*accuracy / largest));
     }
     expects(std::isfinite(h) && h > 0, "step", h, "positive and finite [s]");
@@ -157,9 +168,9 @@ struct GeneralizedAlpha {
       if (next.course.converged) {
         double error = 0;
         const std::vector<Role>& roles = system.equations().roles();
-        for (int k = 0; k < a.size(); ++k)
+        for (int k = 0; k < next.before.size(); ++k)
           if (roles[static_cast<std::size_t>(k)] == Role::massive)
-            error = std::max(error, std::abs(next.algorithmic[k] - a[k]));
+            error = std::max(error, std::abs(next.algorithmic[k] - next.before[k]));
         error *= std::abs(beta - 1.0 / 6) * h * h;
         ratio = std::clamp(0.9 * std::cbrt(*accuracy / std::max(error, 1e-300)), 0.2, 2.0);
         if (error <= *accuracy) {

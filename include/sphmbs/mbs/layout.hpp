@@ -136,12 +136,16 @@ std::string name_of_unknown(const Structure& structure, const Layout& layout, in
 }
 
 /// Where the conditions of a component begin among all, and how many they are.
+/// @throws InvalidInput unless there is a component of the type with that number.
 template <class T, class Structure>
 std::pair<int, int> conditions_of(const Structure& structure, const Layout& layout, int number) {
   std::pair<int, int> range{0, 0};
   std::size_t first = 0;
   structure.for_each_type([&]<class Other>(const auto& components) {
     if constexpr (std::is_same_v<T, Other>) {
+      expects(number >= 0 && number < static_cast<int>(components.size()),
+              "number of a joint or body", number,
+              "from 0 to " + std::to_string(static_cast<int>(components.size()) - 1));
       const Slot& slot = layout.slots.at(first + static_cast<std::size_t>(number));
       range = {slot.first_condition, slot.m};
     }

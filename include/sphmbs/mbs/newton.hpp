@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,7 +25,7 @@ enum class Refactor {
 struct Newton {
   double tolerance =
       1e-10;  // on the estimated error of a coordinate, over the structure's size [-]
-  double acceleration_tolerance = 1e-6;  // on that of an acceleration, over the largest one [-]
+  double acceleration_tolerance = 1e-6;  // on that of an acceleration, over the largest or gravity
   int max_iterations = 20;
   Refactor refactor = Refactor::when_slow;
   double slow_rate = 0.25;  // ratio of successive corrections that asks for new factors [-]
@@ -73,6 +75,13 @@ struct NewtonCourse {
   }
 };
 
+/// Number of the first entry that is not finite.
+inline int first_not_finite(const VectorXd& x) {
+  int k = 0;
+  while (k + 1 < x.size() && std::isfinite(x[k])) ++k;
+  return k;
+}
+
 /// Solves r = 0, Phi = 0 from the state given, where dv = w.rate dq and dvdot = w.mass dq. Joints
 /// are relocated in every iteration. The error left is estimated from the rate of convergence.
 /// @param size  of the structure, that tolerances refer to [m]
@@ -84,7 +93,9 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
   const int n = equations.coordinates();
   bool anew = options.refactor != Refactor::when_slow;
   VectorXd residual, x;
-  const double far = 10 * std::max(size, state.q.cwiseAbs().maxCoeff()) / size;  // leads nowhere
+  const double furthest = std::max(size, state.q.cwiseAbs().maxCoeff()) / size;
+  const double far = 10 * furthest;  // leads nowhere
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * furthest;
   double largest = 0;
   for (int k = 0; k < options.max_iterations; ++k) {
     equations.relocate(state.q);
@@ -99,7 +110,14 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
     NewtonIteration now{.refactored = refactor};
     now.residual = residual.cwiseAbs().maxCoeff(&now.worst);
     if (refactor && !factors.compute(equations, w)) course.singular = true;
-    if (course.singular || !std::isfinite(now.residual) || !factors.correct(residual, x)) break;
+    if (!residual.allFinite()) {
+      now.worst = first_not_finite(residual);
+      course.failure = "the residual of " + equations.name_of(now.worst) + " is not a number";
+    }
+    if (course.singular || !course.failure.empty() || !factors.correct(residual, x)) {
+      course.iterations.push_back(now);
+      break;
+    }
     state.q += x.head(n);
     state.v += w.rate * x.head(n);
     state.vdot += w.mass * x.head(n);
@@ -109,8 +127,8 @@ NewtonCourse newton_solve(System& equations, Factors& factors, State& state, con
 
     const double rate = course.rate();
     const double error = now.correction * (k == 0 ? 1.0 : rate / std::max(1 - rate, 1e-3));
-    constexpr double rounding = 1e-15;
-    const double allowed = options.acceleration_tolerance * state.vdot.cwiseAbs().maxCoeff();
+    const double largest_vdot = std::max(state.vdot.cwiseAbs().maxCoeff(), equations.weight());
+    const double allowed = options.acceleration_tolerance * largest_vdot;
     if (now.correction <= rounding ||
         (error <= options.tolerance && w.mass * error * size <= allowed)) {
       course.converged = true;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
+#include <sphmbs/core/expects.hpp>
 #include <sphmbs/mbs/marker.hpp>
 #include <sphmbs/mbs/part.hpp>
 
@@ -54,6 +57,13 @@ struct Placed {
   }
   { return marker(part.shape_gradient(X, k)); }
 
+  /// d2r/dXdY of a plate at X. Those of 48 coordinates have it at their nodes, where a clamp holds
+  /// it beside both gradients.
+  Marker<P::dim> twist(const typename P::Material& X) const requires requires(const P p) {
+    p.shape_twist(X);
+  }
+  { return marker(part.shape_twist(X)); }
+
   Marker<P::dim> start() const requires requires(const P p) { p.start(); }
   { return point(part.start()); }
   Marker<P::dim> end() const requires requires(const P p) { p.end(); }
@@ -61,8 +71,12 @@ struct Placed {
 
  private:
   // Coordinates that do not move the marker are left out: those of the other nodes, at a node.
+  /// @throws InvalidInput for a point that is not finite.
   Marker<P::dim> marker(const Matrix<P::dim, P::dofs>& N) const {
     constexpr double nothing = 1e-14;
+    expects(N.allFinite(),
+            std::string(P::label) + " " + std::to_string(number) + ": a material point",
+            "not finite", "finite [m]");
     const double size = N.cwiseAbs().maxCoeff();
     const Index own = index();
     std::vector<int> kept;

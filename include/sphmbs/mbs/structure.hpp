@@ -133,10 +133,12 @@ class Structure {
   /// All components of a type, in the order of the adds.
   template <class T>
   auto& all() {
+    static_assert((std::is_same_v<T, Types> || ...), "add T to the types of Structure<...>, once");
     return std::get<std::vector<typename StoredAs<T>::type>>(components_);
   }
   template <class T>
   const auto& all() const {
+    static_assert((std::is_same_v<T, Types> || ...), "add T to the types of Structure<...>, once");
     return std::get<std::vector<typename StoredAs<T>::type>>(components_);
   }
 
@@ -166,6 +168,8 @@ class Structure {
   VectorXd v() const { return VectorXd::Map(v_.data(), coordinates()); }
   const std::vector<Node>& nodes() const { return nodes_; }
   int coordinates() const { return static_cast<int>(q_.size()); }
+  /// Number of parts, joints and forces.
+  std::size_t components() const { return (all<Types>().size() + ...); }
 
   /// What messages call a component: "cable 3 (nodes 3, 4)", "revolute 'knee'".
   template <Part P>

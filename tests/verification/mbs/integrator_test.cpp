@@ -246,3 +246,75 @@ TEST_CASE("with an accuracy, steps follow the motion and the error falls with it
     coarse_steps = steps;
   }
 }
+
+TEST_CASE("a spinning bar never gains energy, however far it turns in a step", "[mbs]") {
+  const double rate = 10;
+  for (const double rho : {1.0, 0.95, 0.9, 0.8, 0.5, 0.0})
+    for (const double turn : {0.02, 0.05, 0.1, 0.2, 0.4}) {
+      Mechanism mechanism;
+      ncf::Bar bar = thin_bar({0, 0}, {1, 0});
+      bar.angular_velocity = rate;
+      const auto placed = mechanism.add(bar);
+      mechanism.add(joints::pinned(placed.start(), mechanism.q(), "root"));
+      System system(mechanism);
+      const double start = system.energies().total();
+      double highest = 0;
+      const GeneralizedAlpha integrator{.spectral_radius = rho};
+      for (int k = 0; k < 2000; ++k) {
+        integrator.step(system, [&] { return turn / rate; });
+        highest = std::max(highest, system.energies().total() / start);
+      }
+      const double kept = system.energies().total() / start;
+      CAPTURE(rho, turn, kept, highest);
+      CHECK(highest < 1 + 1e-6);
+      if (rho >= 0.8 && turn <= 0.1) CHECK(kept > 0.998);
+    }
+}
+
+TEST_CASE("steps that change keep the order in q, v and lambda", "[mbs]") {
+  const double until = 0.5;
+  const State reference = reference_state(until);
+  for (const double rho : {1.0, 0.8, 0.5}) {
+    std::array<std::array<double, 3>, 2> error{};
+    for (std::size_t level = 0; level < 2; ++level) {
+      const double h = level == 0 ? 4e-3 : 2e-3;
+      Mechanism mechanism = rigid_mechanism();
+      System system(mechanism);
+      const GeneralizedAlpha integrator{.spectral_radius = rho, .newton = exactly};
+      for (int k = 0; system.time() < until - 1e-12; ++k)
+        integrator.step(system,
+                        [&] { return std::min(k % 2 == 0 ? h : h / 4, until - system.time()); });
+      const State& state = system.state();
+      error[level] = {(state.q - reference.q).norm(), (state.v - reference.v).norm(),
+                      (state.lambda - reference.lambda).norm()};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double order = std::log2(error[0][k] / error[1][k]);
+      CAPTURE(rho, k, error[0][k], error[1][k]);
+      CHECK(order == Approx(2).margin(0.25));
+    }
+    CHECK(error[1][2] < 1e-2 * reference.lambda.norm());
+  }
+}
+
+TEST_CASE("a cable that has come to rest stays there in whole steps, wherever it is", "[mbs]") {
+  for (const double x : {0.0, 100.0}) {
+    Mechanism mechanism;
+    mechanism.gravity = {0, -9.81};
+    const auto line = ancf::line(mechanism, {.from = {x, 0},
+                                             .to = {x + 1, 0},
+                                             .elements = 4,
+                                             .prototype = Cable{.axial_stiffness = 1e7,
+                                                                .bending_stiffness = 1,
+                                                                .mass_per_length = 0.1,
+                                                                .damping = 1e-2}});
+    mechanism.add(joints::pinned(line.start(), mechanism.q(), "left"));
+    mechanism.add(joints::pinned(line.end(), mechanism.q(), "right"));
+    System system(mechanism);
+    advance(system, {}, 2, 1e-3);
+    CAPTURE(x, system.statistics().factorisations);
+    CHECK(system.state().v.cwiseAbs().maxCoeff() < 1e-8);
+    CHECK(system.statistics().halvings == 0);
+    CHECK(system.statistics().factorisations < 100);
+  }
+}

@@ -28,11 +28,10 @@ inline Matrix<5, 8> beam_coefficients(double xi, double length) {
 
 /// Strains of a beam on its axis.
 ///
-///   0  (r_x.r_x - 1)/2           stretch            5  r_y.r_z                   shear in the
-///   section 1  (r_y.r_y - 1)/2           width              6  r_x.r_xy                  bending,
-///   y fibres 2  (r_z.r_z - 1)/2           height             7  r_x.r_xz                  bending,
-///   z fibres 3  r_x.r_y                   shear along y      8  (r_xy.r_z - r_xz.r_y)/2   twist 4
-///   r_x.r_z                   shear along z
+/// - 0 (r_x.r_x - 1)/2, stretch; 1 (r_y.r_y - 1)/2, width; 2 (r_z.r_z - 1)/2, height
+/// - 3 r_x.r_y and 4 r_x.r_z, shear along y and z; 5 r_y.r_z, shear in the section
+/// - 6 r_x.r_xy and 7 r_x.r_xz, bending of the fibres at y and at z
+/// - 8 (r_xy.r_z - r_xz.r_y)/2, twist
 ///
 /// They are Green's strain of r = r_0 + y r_y + z r_z at y = z = 0, shears doubled, and those of
 /// its terms linear in y and z that bend and twist, as in E_xx = e_0 + y e_6 + z e_7 + ...

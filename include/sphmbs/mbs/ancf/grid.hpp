@@ -29,7 +29,12 @@ struct Grid {
   double width() const { return raster.count[1] * raster.cell[1]; }
 
   /// Element in column i and row j, from 0.
+  /// @throws InvalidInput for one that is not there.
   const Placed<P>& element(int i, int j) const {
+    expects(i >= 0 && i < raster.count[0], "element of a grid: column", i,
+            "from 0 to " + std::to_string(raster.count[0] - 1));
+    expects(j >= 0 && j < raster.count[1], "element of a grid: row", j,
+            "from 0 to " + std::to_string(raster.count[1] - 1));
     return elements.at(static_cast<std::size_t>(j * raster.count[0] + i));
   }
   /// Node in column i and row j, from 0 to the number of elements.
@@ -49,6 +54,11 @@ struct Grid {
   Marker<3> gradient(double x, double y, int k) const {
     const auto [element, X] = at(x, y);
     return element->gradient(X, k);
+  }
+  /// r_xy there, which a clamped edge of plates of 48 coordinates holds too.
+  Marker<3> twist(double x, double y) const {
+    const auto [element, X] = at(x, y);
+    return element->twist(X);
   }
   /// A corner: i = 0 or 1 at either end along x, j along y.
   Marker<3> corner(int i, int j) const { return point(i * length(), j * width()); }

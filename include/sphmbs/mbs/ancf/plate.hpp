@@ -71,6 +71,8 @@ struct Plate {
   Matrix<3, dofs> shape_gradient(const Material& X, int k) const {
     return k == 0 ? functions(X, 1, 0) : functions(X, 0, 1);
   }
+  /// Derivative of N in x and y.
+  Matrix<3, dofs> shape_twist(const Material& X) const { return functions(X, 1, 1); }
   static Matrix<dofs, 3> translation() {
     Matrix<dofs, 3> T = Matrix<dofs, 3>::Zero();
     for (int i = 0; i < nodes; ++i) T.template middleRows<3>(i * node_dofs).setIdentity();

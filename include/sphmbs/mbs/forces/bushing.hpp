@@ -52,6 +52,7 @@ struct Bushing {
     add_tangent<size>(y, -viscous * J, c);
   }
 
+  bool conservative() const { return true; }
   double potential(VectorIn q, double) const {
     const Y now = y.local(q);
     const Strains z = strains(jacobian(now), now);

@@ -103,6 +103,7 @@ struct Contact {
     return law_of(surface_at(now), RelativePosition<dim>::jacobian(now) * velocity).force;
   }
 
+  bool conservative() const { return true; }
   double potential(VectorIn q, double) const {
     return law.push(-surface_at(y.local(q)).value, 0).energy;
   }
@@ -115,6 +116,7 @@ struct Contact {
   /// @throws InvalidInput for a frame without vectors, a radius, stiffness, damping or friction
   /// below zero, an exponent outside [1, 3], or a sphere or creep velocity that is not positive.
   void check() const {
+    expects(point.N.size() > 0, "point", "missing", "a point of a part");
     forces::check(frame, "frame");
     surface.check();
     law.check();

@@ -48,6 +48,7 @@ struct DistributedLoad {
   void tangent(VectorIn, VectorIn, double, MatrixOut, MatrixOut) const {}
 
   /// V = -Q . q of a constant load; one that changes in time has none.
+  bool conservative() const { return !history; }
   double potential(VectorIn q, double) const { return history ? 0.0 : -generalized(value).dot(q); }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
 

@@ -49,6 +49,7 @@ struct FollowerForce {
   /// @throws InvalidInput unless the force is finite and the vectors that it needs are given.
   void check() const {
     expects(value.allFinite(), "value", value.transpose(), "finite [N]");
+    expects(at.N.size() > 0, "at", "missing", "a point of a part");
     expects(!is_zero(along), "along", "zero", "a vector that the force turns with");
     if constexpr (Dim == 3)
       expects((!history && value.template tail<2>().isZero(0.0)) || !is_zero(beside), "beside",

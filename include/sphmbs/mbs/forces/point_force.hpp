@@ -28,11 +28,15 @@ struct PointForce {
   void tangent(VectorIn, VectorIn, double, MatrixOut, MatrixOut) const {}
 
   /// V = -F . x of a constant force; one that changes in time has none.
+  bool conservative() const { return !history; }
   double potential(VectorIn q, double) const { return history ? 0.0 : -value.dot(at.local(q)); }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
 
-  /// @throws InvalidInput unless the force is finite.
-  void check() const { expects(value.allFinite(), "value", value.transpose(), "finite [N]"); }
+  /// @throws InvalidInput unless the force is finite and at a point that can move.
+  void check() const {
+    expects(value.allFinite(), "value", value.transpose(), "finite [N]");
+    expects(at.N.size() > 0, "at", "missing", "a point of a part");
+  }
 };
 
 static_assert(Load<PointForce<1>> && Load<PointForce<2>> && Load<PointForce<3>>);

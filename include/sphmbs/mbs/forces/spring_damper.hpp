@@ -53,6 +53,7 @@ struct SpringDamper {
     add_tangent<Dim>(between, viscous, c);
   }
 
+  bool conservative() const { return !law; }
   double potential(VectorIn q, double) const { return tension(between.local(q).norm(), 0).energy; }
 
   double dissipation(VectorIn q, VectorIn v, double) const {

@@ -58,6 +58,7 @@ struct TorsionSpring {
     add_tangent(y, viscous, c);
   }
 
+  bool conservative() const { return true; }
   double potential(VectorIn q, double) const {
     const double turned = deflection(q);
     return 0.5 * stiffness * turned * turned;
