@@ -36,10 +36,11 @@ struct Inertia {
   void check() const {
     expects(mass > 0 && std::isfinite(mass), "mass", mass, "positive [kg]");
     expects(centre.allFinite(), "centre", centre.transpose(), "finite [m]");
-    expects(tensor.allFinite(), "inertia tensor", tensor, "finite [kg m^2]");
+    const auto rows = tensor.format(Eigen::IOFormat(6, Eigen::DontAlignCols, ", ", "; "));
+    expects(tensor.allFinite(), "inertia tensor", rows, "finite [kg m^2]");
     const double rounding = 1e-10 * tensor.cwiseAbs().maxCoeff();
-    expects((tensor - tensor.transpose()).cwiseAbs().maxCoeff() <= rounding, "inertia tensor",
-            tensor, "symmetric [kg m^2]");
+    expects((tensor - tensor.transpose()).cwiseAbs().maxCoeff() <= rounding, "inertia tensor", rows,
+            "symmetric [kg m^2]");
     const Vector<3> moments =
         Eigen::SelfAdjointEigenSolver<Matrix<3, 3>>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
     expects(moments[0] >= -rounding && moments[2] > 0, "principal moments of inertia",

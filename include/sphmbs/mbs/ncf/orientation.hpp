@@ -22,7 +22,8 @@ struct Orientation {
   void check() const {
     constexpr double rounding = 1e-8;
     const double off = (R.transpose() * R - Matrix<3, 3>::Identity()).cwiseAbs().maxCoeff();
-    expects(off <= rounding && R.determinant() > 0, "orientation", R,
+    expects(off <= rounding && R.determinant() > 0, "orientation",
+            R.format(Eigen::IOFormat(6, Eigen::DontAlignCols, ", ", "; ")),
             "a rotation: a matrix with R^T R = 1 and det R = 1, or a unit quaternion, or an angle "
             "about a unit axis");
   }
