@@ -134,9 +134,8 @@ TEST_CASE("a driven slider-crank follows its kinematics, and the drive does the 
     CAPTURE(rho, fine.x, fine.speed, fine.torque, fine.balance);
     CHECK(fine.x < 1e-11);
     CHECK(fine.speed < 2e-4);
-    CHECK(fine.torque < 4e-4);
+    CHECK(fine.torque < (rho < 1 ? 2e-5 : 4e-4));
     CHECK(fine.balance < 4e-4);
-    if (rho < 1) CHECK(std::log2(coarse.torque / fine.torque) > 1.8);
     CHECK(std::log2(coarse.balance / fine.balance) > 1.8);
   }
 }
