@@ -8,8 +8,8 @@
 
 namespace sphmbs::execution {
 
-/// Takes exceptions out of a parallel loop of the host, which must not leave it: that of the smallest
-/// index is thrown again afterwards, whatever the number of threads.
+/// Takes exceptions out of a parallel loop of the host, which must not leave it: that of the
+/// smallest index is thrown again afterwards, whatever the number of threads.
 class FirstError {
  public:
   template <class Action>

@@ -110,13 +110,15 @@ class ConsistentStart {
     const VectorXd start = state_.q;
     VectorXd phi = equations_.conditions_residual();
     if (phi.size() == 0) return;
-    const double rounding = 1e-14 * size_;
+    // Of places far from the origin, and of unit vectors of small bodies.
+    const double reach = std::max(size_, state_.q.cwiseAbs().maxCoeff());
+    const double rounding = 1e-14 * reach;
     for (int k = 0; k < 10 && kept(phi).cwiseAbs().maxCoeff() > rounding; ++k) {
       state_.q += solve(VectorXd::Zero(state_.q.size()), -kept(phi)).head(state_.q.size());
       relocate();
       phi = equations_.conditions_residual();
     }
-    if (phi.cwiseAbs().maxCoeff(&worst) > 1e-10 * size_) contradiction(worst, phi[worst]);
+    if (phi.cwiseAbs().maxCoeff(&worst) > 1e-10 * reach) contradiction(worst, phi[worst]);
     report_.position_correction = (state_.q - start).cwiseAbs().maxCoeff();
     if (report_.position_correction > 1e-12 * size_)
       note("initial positions", report_.position_correction);

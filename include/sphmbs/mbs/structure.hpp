@@ -123,6 +123,7 @@ class Structure {
   requires(Constraint<T> || Force<T>) int add(T component) {
     const std::string name = component.name();
     checked(name, [&] { component.check(); });
+    expects(!component.index().empty(), name + ": coordinates", "none", "of a part that can move");
     for (const int k : component.index())
       expects(k >= 0 && k < coordinates(), name + ": coordinate", k,
               "one of the " + std::to_string(coordinates()) + " of this structure");

@@ -138,8 +138,9 @@ TEST_CASE("csv refuses rows of the wrong length and ambiguous heads", "[io]") {
 TEST_CASE("csv reports a missing directory and a full device", "[io]") {
   using Columns = std::vector<sphmbs::io::CsvWriter::Column>;
   const Directory directory;
-  CHECK_THROWS_AS(sphmbs::io::CsvWriter(directory.path / "missing" / "a.csv", "", Columns{{"a", "s"}}),
-                  sphmbs::OutputError);
+  CHECK_THROWS_AS(
+      sphmbs::io::CsvWriter(directory.path / "missing" / "a.csv", "", Columns{{"a", "s"}}),
+      sphmbs::OutputError);
   if (!std::filesystem::exists("/dev/full")) return;
   CHECK_THROWS_AS(sphmbs::io::CsvWriter("/dev/full", "", Columns{{"a", "s"}}), sphmbs::OutputError);
 }

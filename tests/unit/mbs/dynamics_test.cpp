@@ -44,6 +44,25 @@ TEST_CASE("markers and loads that are nowhere are refused", "[mbs]") {
                  {"at = missing: must be a point of a part"}));
 }
 
+TEST_CASE("bodies of a micrometre start as well as large ones", "[mbs]") {
+  for (const double scale : {1e-6, 1e3}) {
+    Mechanism mechanism;
+    const auto a = mechanism.add(ncf::PlanarBody{
+        .inertia = {.mass = 1, .polar = scale * scale}, .position = {0, 0}, .angle = 0.3});
+    const auto b = mechanism.add(ncf::PlanarBody{.inertia = {.mass = 1, .polar = scale * scale},
+                                                 .position = a.point({scale, 0}).at(mechanism.q()),
+                                                 .angle = 0.7,
+                                                 .angular_velocity = 1});
+    mechanism.add(joints::revolute(a.point({scale, 0}), b.point({0, 0})));
+    System system(mechanism, {.velocity_tolerance = 2});
+    const double start = system.energies().total();
+    advance(system, {}, 0.1, 1e-3);
+    CHECK(system.statistics().halvings == 0);
+    CHECK(system.energies().total() == Approx(start).epsilon(1e-4));
+    CHECK(start > 0);
+  }
+}
+
 TEST_CASE("a structure that changes under its equations is refused", "[mbs]") {
   Mechanism mechanism = test::double_pendulum<Mechanism>();
   System system(mechanism);
