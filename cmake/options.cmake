@@ -15,4 +15,7 @@ set(SPHMBS_SANITIZE "" CACHE STRING "Sanitizers as a list, for example address;u
 get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
 if(PROJECT_IS_TOP_LEVEL AND NOT is_multi_config AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+elseif(NOT is_multi_config AND NOT CMAKE_BUILD_TYPE)
+  message(WARNING "sphmbs: CMAKE_BUILD_TYPE is empty, so nothing is optimised and simulations take "
+    "about a hundred times as long; configure with -DCMAKE_BUILD_TYPE=Release")
 endif()

@@ -19,7 +19,9 @@ namespace sphmbs::mbs {
 /// What to do with conditions that hold what others hold already.
 enum class Redundant { remove, refuse };
 
-/// How an initial state may deviate from its conditions, and what is done about it.
+/// How an initial state may deviate from its conditions, and what is done about it. What is
+/// projected away is meant to be rounding: the smallest change in kinetic energy moves light,
+/// flexible parts most, and a whole velocity that is missing would whip them.
 struct StartOptions {
   double position_tolerance = 1e-6;  // on Phi, over the structure's size [-]
   double velocity_tolerance = 1e-3;  // on dPhi/dt, over the largest rate or the size a second [-]
@@ -214,7 +216,11 @@ class ConsistentStart {
                            double allowed) const {
     std::ostringstream text;
     text << "Initial " << what << " violate " << name(condition) << " by " << std::abs(value)
-         << ": at most " << allowed << " is projected away.";
+         << ": at most " << allowed << " is projected away. "
+         << (what == "velocities"
+                 ? "Give the parts the velocities of their joints and drives, or let a drive begin "
+                   "smoothly (joints::SmoothStep)."
+                 : "Place the parts where their joints are.");
     throw InvalidInput(text.str());
   }
 

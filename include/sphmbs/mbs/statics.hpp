@@ -89,7 +89,8 @@ class EquilibriumSearch {
       text << "; " << course_.failure;
     else if (!course_.iterations.empty())
       text << "; the largest residual, " << course_.iterations.back().residual << ", is in "
-           << equations_.name_of(course_.iterations.back().worst) << ".";
+           << equations_.name_of(course_.iterations.back().worst) << ", and the part held least is "
+           << softest() << ": can it move freely?";
     text << " Try a smaller first_step, or a start nearer to the equilibrium.\n" << course_.table();
     return text.str();
   }
