@@ -231,8 +231,13 @@ TEST_CASE("a mass bounces back with the restitution that the damping says", "[mb
 TEST_CASE("contact refuses parameters out of range", "[mbs]") {
   using Ball = Contact<Sphere<2>>;
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  const auto refusal = [](const Ball& ball) { return test::refusal([&] { ball.check(); }); };
+  const auto refusal = [](Ball ball) {
+    ball.point = FreePoints<2, 1>::point(0);
+    return test::refusal([&] { ball.check(); });
+  };
   const Sphere<2> unit{.radius = 1};
+  CHECK(test::refusal([&] { Ball{.surface = unit}.check(); }) ==
+        "point = missing: must be a point of a part");
   CHECK(refusal({.surface = unit}).empty());
   CHECK(refusal({}) == "radius of the sphere = 0: must be positive [m]");
   CHECK(refusal({.radius = -1, .surface = unit}) == "radius = -1: must be zero or positive [m]");

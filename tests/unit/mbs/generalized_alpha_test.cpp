@@ -24,7 +24,9 @@ TEST_CASE("every refactoring policy finds the same motion", "[mbs]") {
   CHECK((ends[1] - ends[0]).cwiseAbs().maxCoeff() < 1e-9);
   CHECK((ends[2] - ends[0]).cwiseAbs().maxCoeff() < 1e-9);
   CHECK(factorisations[0] > factorisations[1]);
-  CHECK(factorisations[1] > 3 * factorisations[2]);
+  // The projection takes one a step, which serves the next step where factors may be old.
+  CHECK(factorisations[1] == 2 * 100);
+  CHECK(factorisations[2] < 110);
 }
 
 TEST_CASE("conditions hold to rounding throughout", "[mbs]") {

@@ -41,11 +41,11 @@ struct Example {
     for (int i = 0; i <= elements; ++i) {
       VectorXd q(2 * Dim), v(2 * Dim);
       for (int k = 0; k < 2 * Dim; ++k) {
-        q[k] = random.between(-1, 1);
+        q[k] = random.between(-0.3, 0.3);
         v[k] = random.between(-1, 1);
       }
       q[0] += i;
-      q[Dim] += 2;
+      q[Dim] += 1;
       nodes.push_back(model.add_node(q, v));
     }
     for (int i = 0; i < elements; ++i) {
