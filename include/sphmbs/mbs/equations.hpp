@@ -11,12 +11,6 @@
 
 namespace sphmbs::mbs {
 
-/// Weights of the iteration matrix: mass * M + d/dq + rate * d/dv.
-struct MatrixWeights {
-  double mass;  // dvdot/dq of the integrator [1/s^2]
-  double rate;  // dv/dq [1/s]
-};
-
 /// The assembled equations of a structure, eq. (25):
 ///
 ///   r   = M vdot + Phi_q^T lambda + F(q, v) - Q(q, v, t) - M T g - Q_ext
@@ -31,9 +25,9 @@ class Equations {
   static constexpr int dim = Structure::dim;
 
   /// Keeps a reference to the structure, which must be complete.
-  /// @throws InvalidInput for a structure without parts, and for gravity that is not finite.
+  /// @throws as Structure::check does.
   explicit Equations(Structure& structure)
-      : structure_(checked(structure)),
+      : structure_((structure.check(), structure)),
         external_(VectorXd::Zero(structure.coordinates())),
         mass_(assemble_mass(structure)) {
     lay_out_again();
@@ -182,14 +176,6 @@ class Equations {
   std::string name_of_condition(int condition) const { return name_of(coordinates() + condition); }
 
  private:
-  static Structure& checked(Structure& structure) {
-    expects(structure.coordinates() > 0, "structure: number of coordinates", 0,
-            "1 or more: it needs a part");
-    expects(structure.gravity.allFinite(), "gravity", structure.gravity.transpose(),
-            "finite [m/s^2]");
-    return structure;
-  }
-
   static std::size_t as_size(int n) { return static_cast<std::size_t>(n); }
 
   // From here on a loop is worth the start of threads.

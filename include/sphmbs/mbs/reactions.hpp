@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseLU>
 
-#include <sphmbs/mbs/equations.hpp>
+#include <sphmbs/mbs/bordered.hpp>
 
 namespace sphmbs::mbs {
 
@@ -18,18 +18,9 @@ VectorXd minimum_norm_multipliers(System& equations, const State& state,
   equations.evaluate(state);
   const SparseMatrix columns = equations.jacobian().transpose();
   // [1, B^T; B, 0] [x; w] = [b, 0] with the kept rows B gives B^T w = b for a removed row b.
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int k = 0; k < n; ++k) entries.emplace_back(k, k, 1.0);
-  for (int i = 0; i < m; ++i) {
-    if (equations.removed(i)) entries.emplace_back(n + i, n + i, 1.0);
-    for (SparseMatrix::InnerIterator e(columns, i); e && !equations.removed(i); ++e) {
-      entries.emplace_back(n + i, static_cast<int>(e.row()), e.value());
-      entries.emplace_back(static_cast<int>(e.row()), n + i, e.value());
-    }
-  }
-  SparseMatrix A(n + m, n + m);
-  A.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseLU<SparseMatrix> lu(A);
+  SparseMatrix unit(n, n);
+  unit.setIdentity();
+  const Eigen::SparseLU<SparseMatrix> lu(bordered(equations, unit));
   VectorXd lambda = state.lambda;
   std::vector<VectorXd> dependences;
   for (const int i : removed) {

@@ -10,6 +10,7 @@
 
 #include <Eigen/SparseLU>
 
+#include <sphmbs/mbs/bordered.hpp>
 #include <sphmbs/mbs/equilibrate.hpp>
 #include <sphmbs/mbs/kinematics.hpp>
 #include <sphmbs/mbs/redundancy.hpp>
@@ -165,23 +166,7 @@ class ConsistentStart {
   // [M, Phi_q^T; Phi_q, 0] x = [force, conditions], at the state.
   VectorXd solve(const VectorXd& force, const VectorXd& conditions) {
     const int n = equations_.coordinates(), m = equations_.conditions();
-    std::vector<Eigen::Triplet<double>> entries;
-    const SparseMatrix& M = equations_.mass();
-    for (int j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator e(M, j); e; ++e)
-        entries.emplace_back(static_cast<int>(e.row()), j, e.value());
-    const SparseMatrix B = equations_.jacobian();
-    for (int j = 0; j < n; ++j)
-      for (SparseMatrix::InnerIterator e(B, j); e; ++e) {
-        const int i = static_cast<int>(e.row());
-        if (equations_.removed(i)) continue;
-        entries.emplace_back(n + i, j, e.value());
-        entries.emplace_back(j, n + i, e.value());
-      }
-    for (int i = 0; i < m; ++i)
-      if (equations_.removed(i)) entries.emplace_back(n + i, n + i, 1.0);
-    SparseMatrix A(n + m, n + m);
-    A.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix A = bordered(equations_, equations_.mass());
     const VectorXd D = equilibrate(A, equations_.roles());
     LU lu(A);
     VectorXd b(n + m);

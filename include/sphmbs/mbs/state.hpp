@@ -14,6 +14,12 @@ struct State {
   VectorXd lambda;  // Lagrange multipliers, one a condition; -Phi_q^T lambda is what joints exert
 };
 
+/// Weights of the iteration matrix: mass * M + d/dq + rate * d/dv.
+struct MatrixWeights {
+  double mass;  // dvdot/dq of the integrator [1/s^2]
+  double rate;  // dv/dq [1/s]
+};
+
 /// What the unknown at a place of [q, lambda] is; solvers that do not pivot order by it.
 enum class Role : unsigned char { massive, massless, multiplier };
 

@@ -164,6 +164,12 @@ class Structure {
   }
   void start_from(const VectorXd& q) { start_from(q, VectorXd::Zero(q.size())); }
 
+  /// @throws InvalidInput for a structure without parts, and for gravity that is not finite.
+  void check() const {
+    expects(coordinates() > 0, "structure: number of coordinates", 0, "1 or more: it needs a part");
+    expects(gravity.allFinite(), "gravity", gravity.transpose(), "finite [m/s^2]");
+  }
+
   /// Coordinates at t = 0, and their rates.
   VectorXd q() const { return VectorXd::Map(q_.data(), coordinates()); }
   VectorXd v() const { return VectorXd::Map(v_.data(), coordinates()); }

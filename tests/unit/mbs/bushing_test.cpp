@@ -154,7 +154,7 @@ TEST_CASE("a planar frame has its second axis a quarter turn from the first", "[
   FreePoints<2, 3> points(1);
   const Marker<2> x = points.vector();
   const forces::Frame<2> frame = forces::frame(points.place(), x);
-  CHECK((at(frame.vectors[1], points.q) - forces::quarter_turn(at(x, points.q))).norm() < exact);
+  CHECK((at(frame.vectors[1], points.q) - quarter_turn(at(x, points.q))).norm() < exact);
   const forces::Frame<2> wall = forces::ground_frame<2>({1, 2}, {3, 4});
   CHECK((wall.vectors[0].x0 - Vector<2>(0.8, -0.6)).norm() < exact);
   CHECK((wall.vectors[1].x0 - Vector<2>(0.6, 0.8)).norm() < exact);

@@ -134,7 +134,7 @@ TEST_CASE("the work of a torque over a full turn is 2 pi M", "[mbs]") {
   for (int k = 0; k < steps; ++k) {
     const double phi = 2 * pi * k / steps;
     const Vector<2> u = Eigen::Rotation2Dd(phi) * Vector<2>(3, 1);
-    work2 += test::assembled<2>(planar, u, u).Q.dot(forces::quarter_turn(u)) * 2 * pi / steps;
+    work2 += test::assembled<2>(planar, u, u).Q.dot(quarter_turn(u)) * 2 * pi / steps;
     const Vector<3> w = Eigen::AngleAxisd(phi, axis.normalized()) * Vector<3>(0.4, 1, 2);
     work3 += test::assembled<3>(spatial, w, w).Q.dot(axis.normalized().cross(w)) * 2 * pi / steps;
   }

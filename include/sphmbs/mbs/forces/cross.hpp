@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sphmbs/mbs/types.hpp>
+#include <sphmbs/mbs/quarter_turn.hpp>
 
 namespace sphmbs::mbs::forces {
 
@@ -11,9 +11,6 @@ inline Matrix<3, 3> skew(const Vector<3>& a) {
   S << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
   return S;
 }
-
-/// A planar vector turned by a quarter turn, counter-clockwise.
-inline Vector<2> quarter_turn(const Vector<2>& a) { return {-a[1], a[0]}; }
 
 /// A direction u / |u| and its derivative in u.
 template <int Dim>

@@ -32,9 +32,7 @@ struct Turn<2> {
 
   static Matrix<2, 2> slope(const Vector<2>& u) {
     const double u2 = u.squaredNorm();
-    Matrix<2, 2> J;
-    J << 0, -1, 1, 0;
-    return (J - 2 / u2 * quarter_turn(u) * u.transpose()) / u2;
+    return (quarter_turn() - 2 / u2 * quarter_turn(u) * u.transpose()) / u2;
   }
 
   static double angle(const Vector<2>& from, const Vector<2>& to) {

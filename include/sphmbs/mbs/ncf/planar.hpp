@@ -3,12 +3,9 @@
 
 #include <cmath>
 
-#include <sphmbs/mbs/types.hpp>
+#include <sphmbs/mbs/quarter_turn.hpp>
 
 namespace sphmbs::mbs::ncf {
-
-/// J: the quarter turn, anticlockwise.
-inline Matrix<2, 2> quarter_turn() { return (Matrix<2, 2>() << 0, -1, 1, 0).finished(); }
 
 /// X1 + X2 J: what turns a unit vector e along the first axis into the place of X. Its columns are
 /// orthogonal and of length |X|, hence the mass matrix needs no more than the polar moment.
