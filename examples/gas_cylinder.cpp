@@ -7,11 +7,11 @@
 #include "support/backends.hpp"
 #include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
+#include "support/schemes.hpp"
 
 using namespace sphmbs;
-using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas>;
 
-template <class Policy>
+template <class Gas, class Policy>
 void gas_cylinder(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
   examples::require(dx <= 2 && std::abs(100 / dx - std::round(100 / dx)) < 1e-6, "--spacing", dx,
@@ -25,20 +25,23 @@ void gas_cylinder(const examples::Settings& settings, Policy policy) {
   const geometry::Lattice<2> lattice{.spacing = dx};
 
   // What: an ideal gas at rest, set in motion by a uniform body force, between two walls of five
-  // layers and around a ring of about seven layers.
+  // layers and around a ring of about seven layers. The gas's outermost particles lie on the walls'
+  // lines, so that the walls' surface is half a spacing off.
   const particles::State<2> at_rest{.rho = 1, .p = 841};  // [kg/m^3], [Pa]
   const geometry::Box<2> between{.lower = {-100, 0}, .upper = {200, 50}};
   particles::Cloud<2> cloud;
   cloud.add_gas(lattice.points(pipe - cylinder, domain), at_rest, {dx});
   cloud.add_virtual(lattice.inner_points(between.grown(5.5 * dx) - between, domain, 6 * dx),
-                    at_rest, {dx});
-  const int surface = cloud.add_virtual(examples::ring(lattice, domain, cylinder), at_rest, {dx});
+                    at_rest, {dx}, outside(between.grown(dx / 2)));
+  const int surface = cloud.add_virtual(examples::ring(lattice, domain, cylinder), at_rest, {dx},
+                                        geometry::Ball<2>{cylinder.centre, 10});
 
-  const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {3, 0}};  // [-], [m/s^2]
+  Gas gas{.eos = {.gamma = 1.4}, .acceleration = {3, 0}};  // [-], [m/s^2]
+  if constexpr (Gas::Wall::surfaces) gas.background = at_rest.p;
   sph::Fluid<Gas, Policy> fluid(gas, domain, std::move(cloud), {}, policy);
 
   examples::Session session(settings, "gas_cylinder", "airflow around a circular cylinder", fluid);
-  session.note("gas", "2D, ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, XSPH 0.5");
+  session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
   session.probe("upstream", {25, 25});
   session.probe("above", {40, 40});
   session.probe("downstream", {55, 25});
@@ -54,7 +57,14 @@ int main(int argc, char** argv) {
                                       .title = "airflow around a circular cylinder in a pipe",
                                       .backends = examples::backends(),
                                       .defaults = {.spacing = 0.5, .until = 1, .cfl = 0.4}});
-  return examples::guarded_main(argc, argv, command_line, [](const examples::Settings& settings) {
-    examples::with_backend(settings, [](const auto& s, auto policy) { gas_cylinder(s, policy); });
+  std::string scheme = "paper";
+  examples::add_scheme(command_line, scheme);
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      if (scheme == "paper")
+        gas_cylinder<sph::PaperScheme<2>>(s, policy);
+      else
+        gas_cylinder<sph::SmoothScheme<2>>(s, policy);
+    });
   });
 }

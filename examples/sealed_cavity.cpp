@@ -7,11 +7,11 @@
 #include "support/backends.hpp"
 #include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
+#include "support/schemes.hpp"
 
 using namespace sphmbs;
-using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas>;
 
-template <class Policy>
+template <class Gas, class Policy>
 void sealed_cavity(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
   examples::require(std::abs(1 / dx - std::round(1 / dx)) < 1e-6 && dx <= 0.1, "--spacing", dx,
@@ -30,14 +30,15 @@ void sealed_cavity(const examples::Settings& settings, Policy policy) {
   const particles::State<2> at_rest{.rho = 1.293, .p = 1e4};  // [kg/m^3], [Pa]
   particles::Cloud<2> cloud;
   cloud.add_gas(lattice.points(cavity, domain), at_rest, {dx});
-  cloud.add_virtual(lattice.points(cavity.grown(5 * dx) - cavity, domain, 5 * dx), at_rest, {dx});
+  cloud.add_virtual(lattice.points(cavity.grown(5 * dx) - cavity, domain, 5 * dx), at_rest, {dx},
+                    outside(cavity));
 
   const Gas gas{.eos = {.gamma = 1.4}};
   sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, std::move(cloud), walls,
                                                        policy);
 
   examples::Session session(settings, "sealed_cavity", "gas compressed in a sealed cavity", fluid);
-  session.note("gas", "2D, ideal gas gamma 1.4, quintic spline, acoustic Riemann solver, XSPH 0.5");
+  session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
   session.probe("centre", {0, 0});
   examples::record_energies(session, fluid);
   session.run(time::PredictorCorrector{}, 80, 8);
@@ -50,7 +51,14 @@ int main(int argc, char** argv) {
                                       .title = "gas compressed in a sealed cavity",
                                       .backends = examples::backends(),
                                       .defaults = {.spacing = 0.02, .until = 0.8, .cfl = 0.4}});
-  return examples::guarded_main(argc, argv, command_line, [](const examples::Settings& settings) {
-    examples::with_backend(settings, [](const auto& s, auto policy) { sealed_cavity(s, policy); });
+  std::string scheme = "paper";
+  examples::add_scheme(command_line, scheme);
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      if (scheme == "paper")
+        sealed_cavity<sph::PaperScheme<2>>(s, policy);
+      else
+        sealed_cavity<sph::SmoothScheme<2>>(s, policy);
+    });
   });
 }

@@ -87,7 +87,8 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
     s.conservation.momentum =
         std::sqrt(norm2(gained)) / std::sqrt(2 * end.mass * (end.kinetic + end.internal));
     const double energy = end.energy() + end.virtual_internal - start_.energy() -
-                          start_.virtual_internal - received.body_work() - received.driving_work();
+                          start_.virtual_internal - received.body_work() - received.driving_work() +
+                          fluid_.scheme().background * (end.volume - start_.volume);
     s.conservation.energy = energy / (start_.energy() + start_.virtual_internal);
   }
 

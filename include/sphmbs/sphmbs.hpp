@@ -3,6 +3,8 @@
 
 /// Umbrella: every room of sphmbs.
 #include <sphmbs/boundary/evolved.hpp>
+#include <sphmbs/boundary/extrapolated.hpp>
+#include <sphmbs/boundary/mirrored.hpp>
 #include <sphmbs/boundary/motion.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/core/expects.hpp>
@@ -28,10 +30,16 @@
 #include <sphmbs/neighbours/cell_list.hpp>
 #include <sphmbs/particles/cloud.hpp>
 #include <sphmbs/particles/particles.hpp>
+#include <sphmbs/reconstruction/constant.hpp>
+#include <sphmbs/reconstruction/muscl.hpp>
 #include <sphmbs/riemann/acoustic.hpp>
+#include <sphmbs/riemann/exact.hpp>
 #include <sphmbs/riemann/exact_solution.hpp>
+#include <sphmbs/riemann/hllc.hpp>
+#include <sphmbs/riemann/limited_acoustic.hpp>
 #include <sphmbs/run.hpp>
 #include <sphmbs/sph/fluid.hpp>
+#include <sphmbs/sph/presets.hpp>
 #include <sphmbs/sph/scheme.hpp>
 #include <sphmbs/time/heun.hpp>
 #include <sphmbs/time/predictor_corrector.hpp>

@@ -13,13 +13,14 @@ set(may_geometry       core)
 set(may_execution      core)
 set(may_particles      core execution)
 set(may_neighbours     core execution geometry particles)
+set(may_reconstruction core)
 set(may_boundary       core execution riemann geometry particles)
-set(may_sph            core execution kernels riemann eos geometry time particles neighbours boundary)
+set(may_sph            core execution kernels riemann reconstruction eos geometry time particles neighbours boundary)
 set(may_mbs            core execution time)
 set(may_io             everything)
 set(may_top            everything)  # the headers directly below include/sphmbs
 
-set(rooms core time kernels riemann eos geometry execution particles neighbours boundary sph mbs io top)
+set(rooms core time kernels riemann reconstruction eos geometry execution particles neighbours boundary sph mbs io top)
 
 # The room of a path relative to include/.
 function(room_of path result)

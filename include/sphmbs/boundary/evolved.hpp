@@ -10,12 +10,15 @@ namespace sphmbs::boundary {
 /// cut off, lag behind the gas and bleed that lag inwards; see docs/theory.md.
 struct Evolved {
   static constexpr bool evolves = true;
+  static constexpr bool surfaces = false;
 
   template <class N>
   SPHMBS_INLINE riemann::State<N> facing(const riemann::State<N>&,
                                          const riemann::State<N>& stored) const {
     return stored;
   }
+
+  void check() const {}
 };
 
 static_assert(WallModel<Evolved>);

@@ -10,7 +10,8 @@ namespace sphmbs::boundary {
 
 /// Prescribed motion of virtual particles. `position` carries a point from time t0 to t1 and
 /// `velocity` is its rate; `set` is the number of the set of virtual particles. Times are double in
-/// any fields [s].
+/// any fields [s]. A motion that stretches or turns solids also has
+/// `stretch(set, t0, t1)`, the ratio of lengths [-], and `turned(set, n, t0, t1)` for directions.
 template <class M, class V = Vec<2, double>>
 concept Motion = std::is_trivially_copyable_v<M> &&
     requires(const M motion, int set, V r, double t) {
@@ -45,10 +46,35 @@ struct Contraction {
     return static_cast<T>(-2 * speed / length_at(t)) * r;
   }
 
+  SPHMBS_INLINE double stretch(int, double t0, double t1) const {
+    return length_at(t1) / length_at(t0);
+  }
+
   /// l(t) [m].
   SPHMBS_INLINE double length_at(double t) const { return length - 2 * speed * t; }
 };
 
 static_assert(Motion<Fixed> && Motion<Contraction>);
+
+/// Ratio of lengths of a set's solid between two times; 1 where the motion does not say [-].
+template <class M>
+SPHMBS_INLINE double stretch([[maybe_unused]] const M& motion, [[maybe_unused]] int set,
+                             [[maybe_unused]] double t0, [[maybe_unused]] double t1) {
+  if constexpr (requires { motion.stretch(set, t0, t1); })
+    return motion.stretch(set, t0, t1);
+  else
+    return 1;
+}
+
+/// A direction of a set's solid, carried from one time to another.
+template <class M, int Dim, class T>
+SPHMBS_INLINE Vec<Dim, T> turned([[maybe_unused]] const M& motion, [[maybe_unused]] int set,
+                                 const Vec<Dim, T>& n, [[maybe_unused]] double t0,
+                                 [[maybe_unused]] double t1) {
+  if constexpr (requires { motion.turned(set, n, t0, t1); })
+    return motion.turned(set, n, t0, t1);
+  else
+    return n;
+}
 
 }  // namespace sphmbs::boundary

@@ -32,6 +32,11 @@ SPHMBS_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
 SPHMBS_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
 SPHMBS_INLINE double floor(double a) { return __builtin_floor(a); }
 SPHMBS_INLINE float floor(float a) { return __builtin_floorf(a); }
+/// x to the power y, for packs lane by lane.
+SPHMBS_INLINE double pow(double x, double y) { return __builtin_pow(x, y); }
+SPHMBS_INLINE float pow(float x, float y) { return __builtin_powf(x, y); }
+/// Whether the condition holds, for packs in any lane.
+SPHMBS_INLINE constexpr bool any(bool condition) { return condition; }
 
 template <class T, int W>
 SPHMBS_INLINE Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) {
@@ -82,6 +87,15 @@ SPHMBS_INLINE Pack<T, W> sqrt(Pack<T, W> a) {
 #endif
   for (int l = 0; l < W; ++l) a.v[l] = sqrt(a.v[l]);
   return a;
+}
+template <class T, int W>
+SPHMBS_INLINE Pack<T, W> pow(Pack<T, W> x, Pack<T, W> y) {
+  for (int l = 0; l < W; ++l) x.v[l] = pow(x.v[l], y.v[l]);
+  return x;
+}
+template <class T, int W>
+SPHMBS_INLINE bool any(Mask<T, W> condition) {
+  return condition.bits() != 0;
 }
 
 /// a to a small whole power, n >= 0.

@@ -130,6 +130,16 @@ SPHMBS_INLINE T lane_sum(Pack<T, W> a) {
   return s;
 }
 
+/// Largest of the lanes, or the number itself.
+SPHMBS_INLINE double lane_max(double a) { return a; }
+SPHMBS_INLINE float lane_max(float a) { return a; }
+template <class T, int W>
+SPHMBS_INLINE T lane_max(Pack<T, W> a) {
+  T s = a.v[0];
+  for (int l = 1; l < W; ++l) s = a.v[l] > s ? a.v[l] : s;
+  return s;
+}
+
 namespace detail {
 template <class T, int W>
 struct NumberOf {

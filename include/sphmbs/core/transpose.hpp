@@ -64,21 +64,21 @@ SPHMBS_INLINE void transpose_four(const T* const (&at)[W], Pack<T, W>* field) {
 
 /// The records of `fields` numbers with the given W indices, turned into one pack a field. Whole
 /// cache lines are read and transposed in registers, which beats one gather a field severalfold.
-/// `fields` is 4 to 12.
+/// `fields` is at least 4.
 template <int fields, class T, int W>
 SPHMBS_INLINE void load_transposed(const T* records, const std::uint32_t* index,
                                    Pack<T, W> (&out)[fields]) {
-  static_assert(fields >= 4 && fields <= 12, "two groups of four and one for the rest");
+  static_assert(fields >= 4, "fields are read by groups of four");
   const T* at[W];
   const auto group = [&](int first) SPHMBS_INLINE_LAMBDA {
 #pragma GCC unroll 16
     for (int l = 0; l < W; ++l) at[l] = records + std::size_t{index[l]} * fields + first;
     detail::transpose_four(at, out + first);
   };
-  group(0);
-  if constexpr (fields > 8) group(4);
+#pragma GCC unroll 8
+  for (int first = 0; first + 4 < fields; first += 4) group(first);
   // The last group ends with the record; it may meet the one before.
-  if constexpr (fields > 4) group(fields - 4);
+  group(fields - 4);
 }
 
 }  // namespace sphmbs

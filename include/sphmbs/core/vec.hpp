@@ -44,6 +44,14 @@ struct Vec {
     return *this;
   }
 
+  template <class M>
+  SPHMBS_INLINE constexpr Vec& operator-=(const Vec<Dim, M>& b) {
+    component[0] -= b[0];
+    if constexpr (Dim > 1) component[1] -= b[1];
+    if constexpr (Dim > 2) component[2] -= b[2];
+    return *this;
+  }
+
   friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 

@@ -35,6 +35,19 @@ struct Difference {
   double distance(Vec<dim> x) const { return std::max(a.distance(x), -b.distance(x)); }
 };
 
+/// Points not in a: the solid around a cavity.
+template <Shape A>
+struct Outside {
+  static constexpr int dim = A::dim;
+  A a;
+  double distance(Vec<dim> x) const { return -a.distance(x); }
+};
+
+template <Shape A>
+Outside<A> outside(A a) {
+  return {a};
+}
+
 template <Shape A, Shape B>
 requires(A::dim == B::dim) Union<A, B>
 operator|(A a, B b) { return {a, b}; }

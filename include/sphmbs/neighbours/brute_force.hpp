@@ -38,7 +38,7 @@ class BruteForce {
     list_ = execution::Field<std::uint32_t, Policy>(list);
   }
 
-  NeighbourView view() const { return {first_.data(), list_.data()}; }
+  NeighbourView view() const { return {first_.data(), first_.data() + 1, list_.data()}; }
 
   /// Memory held [bytes].
   std::size_t bytes() const { return first_.bytes() + list_.bytes(); }

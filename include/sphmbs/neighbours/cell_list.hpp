@@ -100,7 +100,7 @@ class CellList {
       Policy::for_each(n, detail::ListNeighbours<Dim, T, W>{find, first_.data(), list_.data()});
   }
 
-  NeighbourView view() const { return {first_.data(), list_.data()}; }
+  NeighbourView view() const { return {first_.data(), first_.data() + 1, list_.data()}; }
 
   /// Memory held [bytes].
   std::size_t bytes() const { return first_.bytes() + list_.bytes() + cell_first_.bytes(); }

@@ -11,9 +11,10 @@
 namespace sphmbs::neighbours {
 
 /// Lists of neighbours that loop bodies see: those of particle a are list[first[a]] ...
-/// list[first[a + 1] - 1], without a itself.
+/// list[last[a] - 1], without a itself.
 struct NeighbourView {
   const std::uint64_t* first;
+  const std::uint64_t* last;
   const std::uint32_t* list;
 };
 

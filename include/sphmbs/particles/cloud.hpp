@@ -38,7 +38,9 @@ struct Cloud {
   std::vector<double> h;          // [m]
   std::vector<double> m;          // [kg]; planar [kg/m]
   std::vector<std::uint8_t> set;  // gas, or the number of a set of virtual particles
-  int sets = 0;                   // sets of virtual particles so far
+  std::vector<Vec<Dim>> normal;  // of the surface before a virtual particle; zero where unknown [-]
+  std::vector<double> depth;     // of a virtual particle below that surface [m]
+  int sets = 0;                  // sets of virtual particles so far
 
   std::size_t size() const { return r.size(); }
 
@@ -46,6 +48,13 @@ struct Cloud {
     std::size_t n = 0;
     for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
     return n;
+  }
+
+  /// Whether any virtual particle knows its surface.
+  bool has_surfaces() const {
+    for (const Vec<Dim>& n : normal)
+      if (norm2(n) > 0) return true;
+    return false;
   }
 
   /// Adds gas, of mass rho spacing^Dim each.
@@ -66,6 +75,32 @@ struct Cloud {
     return sets;
   }
 
+  /// The same for virtual particles of a solid, whose surface gas is to meet truly: the solid's
+  /// signed distance gives each particle its depth below the surface and the surface's normal.
+  /// @param solid  any geometry::Shape
+  /// @throws InvalidInput also for a point that the distance gives no direction at.
+  template <class Solid>
+  int add_virtual(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
+                  const Resolution& resolution, const Solid& solid) {
+    const int number = add_virtual(points, state, resolution);
+    const std::size_t first = size() - points.size();
+    for (std::size_t i = first; i < size(); ++i) {
+      depth[i] = -solid.distance(r[i]);
+      const double step = 1e-4 * resolution.spacing;
+      for (int k = 0; k < Dim; ++k) {
+        Vec<Dim> up = r[i], down = r[i];
+        up[k] += step;
+        down[k] -= step;
+        normal[i][k] = (solid.distance(up) - solid.distance(down)) / (2 * step);
+      }
+      const double slope = std::sqrt(norm2(normal[i]));
+      expects(slope > 0.1, "slope of the solid's distance at a virtual particle", slope,
+              "about 1: the point is as far from several parts of the surface");
+      normal[i] = (1 / slope) * normal[i];
+    }
+    return number;
+  }
+
  private:
   void add(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
            const Resolution& resolution, std::uint8_t number) {
@@ -83,6 +118,8 @@ struct Cloud {
     h.resize(n, resolution.smoothing_ratio * resolution.spacing);
     m.resize(n, state.rho * math::power<Dim>(resolution.spacing));
     set.resize(n, number);
+    normal.resize(n, Vec<Dim>::all(0.0));
+    depth.resize(n, 0.0);
   }
 };
 

@@ -16,17 +16,20 @@ inline constexpr std::uint8_t gas = 0;
 /// metre of depth: m in kg/m; on a line per square metre of section: kg/m^2.
 template <int Dim, class T>
 struct FieldsView {
-  T* r[Dim];          // position [m]
-  T* v[Dim];          // velocity [m/s]
-  T* rho;             // density [kg/m^3]
-  T* e;               // specific internal energy [J/kg]
-  T* h;               // smoothing length [m]
-  T* m;               // mass [kg]
+  T* r[Dim];       // position [m]
+  T* v[Dim];       // velocity [m/s]
+  T* rho;          // density [kg/m^3]
+  T* e;            // specific internal energy [J/kg]
+  T* h;            // smoothing length [m]
+  T* m;            // mass [kg]
+  T* normal[Dim];  // of the surface a virtual particle lies behind, out of the solid; null if none
+  T* depth;        // of a virtual particle below its surface [m]; null if none
   std::uint32_t* id;  // place in the initial cloud; never changes
   std::uint8_t* set;  // gas, or which set of virtual particles
 
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }
+  SPHMBS_INLINE Vec<Dim, T> normal_at(std::size_t i) const { return at(normal, i); }
   SPHMBS_INLINE void set_position(std::size_t i, const Vec<Dim, T>& x) const { put(r, i, x); }
   SPHMBS_INLINE void set_velocity(std::size_t i, const Vec<Dim, T>& x) const { put(v, i, x); }
 
@@ -42,8 +45,9 @@ struct FieldsView {
 
 /// Rates of change, the left-hand sides of eq. (26), or a weighted sum of them over the stages of a
 /// step. Virtual particles, whose motion is prescribed, have at the last stage alone: in `v` the
-/// force of the gas on the particle by its mass, and in `r[0]` the power of other virtual particles
-/// on it by its mass [W/kg].
+/// force of the gas on the particle by its mass, and in `r[0]`, by its mass, the power of other
+/// virtual particles on it or, for wall models with surfaces, what the gas gets from it less than
+/// the work of that force [W/kg].
 template <int Dim, class T>
 struct RatesView {
   T* r[Dim];             // [m/s], eq. (14)
@@ -52,6 +56,7 @@ struct RatesView {
   T* e;                  // [W/kg], eq. (22)
   T* h;                  // [m/s], eq. (23)
   std::uint16_t* pairs;  // neighbours inside the support at the last evaluation
+  std::uint16_t* falls;  // of them those whose reconstruction was refused
 };
 
 }  // namespace sphmbs::particles

@@ -60,11 +60,20 @@ class Particles {
     put(e_, [&](std::size_t i) { return energy(cloud.rho[i], cloud.p[i]); });
     put(h_, [&](std::size_t i) { return cloud.h[i]; });
     put(m_, [&](std::size_t i) { return cloud.m[i]; });
+    if (cloud.has_surfaces()) {
+      expects(cloud.normal.size() == n && cloud.depth.size() == n, "entries of a cloud's surfaces",
+              cloud.normal.size(), "as many as positions, " + std::to_string(n));
+      for (Field<T>* f : surfaces()) *f = Field<T>(padded());
+      for (int k = 0; k < Dim; ++k)
+        put(normal_[k], [&](std::size_t i) { return cloud.normal[i][k]; });
+      put(depth_, [&](std::size_t i) { return cloud.depth[i]; });
+    }
     std::vector<std::uint32_t> id(n);
     std::iota(id.begin(), id.end(), 0u);
     id_ = Field<std::uint32_t>(id);
     set_ = Field<std::uint8_t>(cloud.set);
     pairs_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
+    falls_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
     records_ = Field<T>(n * record_size<Dim>);
   }
 
@@ -77,11 +86,14 @@ class Particles {
                          .e = e_.data(),
                          .h = h_.data(),
                          .m = m_.data(),
+                         .normal = {},
+                         .depth = depth_.data(),
                          .id = id_.data(),
                          .set = set_.data()};
     for (int k = 0; k < Dim; ++k) {
       f.r[k] = r_[k].data();
       f.v[k] = v_[k].data();
+      f.normal[k] = normal_[k].data();
     }
     return f;
   }
@@ -92,7 +104,8 @@ class Particles {
                         .rho = rho_rate_.data(),
                         .e = e_rate_.data(),
                         .h = h_rate_.data(),
-                        .pairs = pairs_.data()};
+                        .pairs = pairs_.data(),
+                        .falls = falls_.data()};
     for (int k = 0; k < Dim; ++k) {
       f.r[k] = r_rate_[k].data();
       f.v[k] = v_rate_[k].data();
@@ -109,14 +122,20 @@ class Particles {
       Policy::for_each(size_, detail::Gather<T>{f->data(), scratch_.data(), order});
       f->swap(scratch_);
     }
+    for (Field<T>* f : surfaces()) {
+      if (f->size() == 0) continue;
+      Policy::for_each(size_, detail::Gather<T>{f->data(), scratch_.data(), order});
+      f->swap(scratch_);
+    }
     permute_small(id_, order);
     permute_small(set_, order);
   }
 
   /// Memory held [bytes].
   std::size_t bytes() {
-    std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes();
+    std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes() + falls_.bytes();
     for (Field<T>* f : numbers()) b += f->bytes();
+    for (Field<T>* f : surfaces()) b += f->bytes();
     return b;
   }
 
@@ -128,6 +147,12 @@ class Particles {
     std::vector<Field<T>*> all{&rho_, &e_, &h_, &m_, &rho_rate_, &e_rate_, &h_rate_, &scratch_};
     for (int k = 0; k < Dim; ++k)
       for (Field<T>* f : {&r_[k], &v_[k], &r_rate_[k], &v_rate_[k]}) all.push_back(f);
+    return all;
+  }
+
+  std::vector<Field<T>*> surfaces() {
+    std::vector<Field<T>*> all{&depth_};
+    for (int k = 0; k < Dim; ++k) all.push_back(&normal_[k]);
     return all;
   }
 
@@ -143,7 +168,8 @@ class Particles {
   Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
   Field<std::uint32_t> id_;
   Field<std::uint8_t> set_;
-  Field<std::uint16_t> pairs_;
+  Field<T> normal_[Dim], depth_;
+  Field<std::uint16_t> pairs_, falls_;
   Field<T> records_;
   Field<T> scratch_;
 };

@@ -13,14 +13,16 @@ namespace sphmbs::riemann {
 /// Exact to first order in the jump. The paper prints rho_b rho_a c_a as the first term of (16),
 /// which is no pressure; this is the solution of the acoustic problem.
 struct Acoustic {
-  template <class N>
-  SPHMBS_INLINE Star<N> star(const State<N>& left, const State<N>& right) const {
-    const N Zl = left.rho * left.c;
-    const N Zr = right.rho * right.c;
+  template <class Eos, class N>
+  SPHMBS_INLINE Star<N> star(const Eos&, const State<N>& left, const State<N>& right) const {
+    const N Zl = detail::impedance(left);
+    const N Zr = detail::impedance(right);
     const N share = N(1) / (Zl + Zr);
     return {.p = (Zr * left.p + Zl * right.p - Zl * Zr * (right.u - left.u)) * share,
             .u = (Zl * left.u + Zr * right.u + left.p - right.p) * share};
   }
+
+  void check() const {}
 };
 
 static_assert(RiemannSolver<Acoustic>);

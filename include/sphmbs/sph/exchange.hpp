@@ -18,7 +18,10 @@ class Exchange {
   double wall_work() const { return wall_work_; }
   /// Work of whatever drives the virtual particles: on the gas, and against the other virtual
   /// particles. With the body force's it equals the change of the energy of gas and virtual
-  /// particles, to the integrator's accuracy [J].
+  /// particles (plus the background pressure times the gas's volume), to the integrator's accuracy.
+  /// For wall models with surfaces it is what passes to the gas at the surface: as the work of the
+  /// virtual particles, but without the share that goes into their own stretching, and with the
+  /// heat of isothermal walls [J].
   double driving_work() const { return wall_work_ + layer_work_; }
   /// Work of the body force [J].
   double body_work() const { return body_work_; }

@@ -12,6 +12,7 @@
 #include <sphmbs/sph/interpolate.hpp>
 #include <sphmbs/sph/list_schedule.hpp>
 #include <sphmbs/sph/rates.hpp>
+#include <sphmbs/sph/slopes.hpp>
 #include <sphmbs/sph/stages.hpp>
 #include <sphmbs/sph/statistics.hpp>
 #include <sphmbs/sph/survey.hpp>
@@ -52,6 +53,9 @@ class Fluid {
     static_assert(time::ExplicitSystem<Fluid>);
     scheme.check();
     domain.check();
+    check_surfaces(cloud);
+    if constexpr (Scheme::vicinity)
+      vicinities_.resize_discarding(size() * particles::slopes_size<dim>);
     for (std::size_t i = 0; i < cloud.size(); ++i)
       gas_mass_ += cloud.set[i] == particles::gas ? cloud.m[i] : 0;
     const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
@@ -73,17 +77,27 @@ class Fluid {
 
   /// k = keep k + f(stage).
   void rates(double keep) {
+    const Gathered<T> from{search_.view(), particles_.records(), vicinities_.data()};
+    const auto border = static_cast<T>(lists_.reach().largest());
+    if constexpr (Scheme::vicinity) {
+      const auto timer = statistics_.time(Phase::slopes);
+      Policy::for_each(size(), EvaluateSlopes<Scheme, T, Policy::template lanes<T>>{
+                                   .space = space_,
+                                   .from = from,
+                                   .set = particles_.fields().set,
+                                   .vicinities = vicinities_.data(),
+                                   .border = border});
+    }
     {
       const auto timer = statistics_.time(Phase::rates);
       Policy::for_each(size(), EvaluateRates<Scheme, T, Policy::template lanes<T>>{
                                    .scheme = scheme_,
                                    .space = space_,
-                                   .neighbours = search_.view(),
-                                   .records = particles_.records(),
+                                   .from = from,
                                    .set = particles_.fields().set,
                                    .rates = particles_.rates(),
                                    .keep = static_cast<T>(keep),
-                                   .border = static_cast<T>(lists_.reach().largest())});
+                                   .border = border});
     }
     const auto timer = statistics_.time(Phase::survey);
     weight_ = keep * weight_ + 1;
@@ -92,6 +106,7 @@ class Fluid {
         SurveyParticle<Scheme, T>{scheme_, particles_.fields(), particles_.rates(),
                                   particles_.records(), 1 / weight_});
     statistics_.pair_interactions += survey_.pairs;
+    statistics_.falls += survey_.falls;
     ++statistics_.evaluations;
     exchange_.evaluated(survey_, gas_mass_, scheme_.acceleration, keep);
     lists_.moving(survey_.approach() + Scheme::Kernel::support * survey_.h_rate);
@@ -154,7 +169,7 @@ class Fluid {
   particles::Particles<dim, T, Policy>& particles() { return particles_; }
 
   /// Memory held [bytes].
-  std::size_t bytes() { return particles_.bytes() + search_.bytes(); }
+  std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }
 
  private:
   // Cells and nearest images take particles to be in the periodic box.
@@ -164,7 +179,16 @@ class Fluid {
     return cloud;
   }
 
-  Advance<dim, T, Motion> advance(double scale, double dt) {
+  static void check_surfaces([[maybe_unused]] const particles::Cloud<dim>& cloud) {
+    if constexpr (Scheme::Wall::surfaces) {
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        expects(cloud.set[i] == particles::gas || norm2(cloud.normal[i]) > 0,
+                "set of virtual particles", static_cast<int>(cloud.set[i]),
+                "added with its solid, whose surface this wall model needs");
+    }
+  }
+
+  Advance<Scheme, T, Motion> advance(double scale, double dt) {
     return {particles_.fields(), particles_.rates(), motion_, static_cast<T>(scale), time_, dt};
   }
 
@@ -172,8 +196,8 @@ class Fluid {
     const auto timer = statistics_.time(Phase::update);
     using Write = WriteRecords<Scheme, T, Motion>;
     culprit_.upload(std::array{Write::nobody});
-    Policy::for_each(
-        size(), Write{advance(scale, dt), scheme_, space_, particles_.records(), culprit_.data()});
+    Policy::for_each(size(), Write{advance(scale, dt), scheme_, space_, particles_.records(),
+                                   vicinities_.data(), culprit_.data()});
     const std::uint32_t culprit = culprit_.download()[0];
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
   }
@@ -224,6 +248,7 @@ class Fluid {
   Survey<dim> survey_;
   Statistics statistics_;
   execution::Field<std::uint32_t, Policy> culprit_{1};
+  execution::Field<T, Policy> vicinities_;  // slopes of gas and surfaces of virtual particles
   double time_ = 0;
   double last_dt_ = 0;
   double weight_ = 0;  // of all evaluations in the rates

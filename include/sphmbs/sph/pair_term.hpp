@@ -2,20 +2,25 @@
 #pragma once
 
 #include <sphmbs/geometry/domain.hpp>
-#include <sphmbs/particles/record.hpp>
-#include <sphmbs/sph/scheme.hpp>
+#include <sphmbs/sph/pair_sides.hpp>
 
 namespace sphmbs::sph {
 
 /// Sums over the neighbours of a particle, in number type N.
 template <int Dim, class N>
 struct PairSums {
-  N rho = N(0);                            // half of eq. (20)
-  N e = N(0);                              // eq. (22) and heat
-  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));  // eq. (21) and viscous stress
-  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));  // the sum of eq. (14), without its sign
-  N power = N(0);                          // of virtual particles on virtual particle a, by m_a
-  N pairs = N(0);                          // neighbours inside the support
+  N rho = N(0);                                // half of eq. (20)
+  N e = N(0);                                  // eq. (22) and heat
+  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));      // eq. (21) and viscous stress
+  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));      // the sum of eq. (14), without its sign
+  Vec<Dim, N> crowd = Vec<Dim, N>::all(N(0));  // sum of V_b grad W [1/m]
+  N spread = N(0);                             // mean square of relative velocities [m^2/s^2]
+  // By m_a, on a virtual particle: the power of other virtual particles; with surfaces what the
+  // gas gets from a less than the work of its force.
+  N power = N(0);
+  N pairs = N(0);    // neighbours inside the support
+  N density = N(0);  // sum of m_b W [kg/m^3]
+  N falls = N(0);    // pairs whose reconstruction was refused
 };
 
 /// The paper's page: what a neighbour b adds to the rates of particle a, eqs. (14) and (20)-(22).
@@ -29,9 +34,12 @@ struct PairTerm {
   const Scheme& scheme;
   const geometry::Periodicity<dim, T>& space;
   const particles::Record<dim, T>& a;
+  const particles::Vicinity<dim, T>& around_a;
 
   template <class N>
-  SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b, PairSums<dim, N>& sum) const {
+  SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
+                                const particles::Vicinity<dim, N>& around_b,
+                                PairSums<dim, N>& sum) const {
     Vec<dim, N> d = b.r - a.r;
     if constexpr (wraps) d = space.nearest(d);
     const N h = N(T(0.5)) * (N(a.h) + b.h);  // eq. (24)
@@ -42,45 +50,50 @@ struct PairTerm {
     const N inverse_h = r * reciprocal;
     const N R = r * inverse_h;
 
-    // Eq. (17): velocities along the line from a to b.
-    riemann::State<N> left{N(a.rho), dot(a.v, d) * inverse_r, N(a.p), N(a.c)};
-    riemann::State<N> right{b.rho, dot(b.v, d) * inverse_r, b.p, b.c};
-    if constexpr (!Scheme::Wall::evolves) {
-      const riemann::State<N> stored = left;
-      left = replaced(N(a.shell) * (N(T(1)) - b.shell), stored, scheme.wall.facing(right, stored));
-      right = replaced(b.shell * N(T(1) - a.shell), right, scheme.wall.facing(stored, right));
-    }
-    const riemann::Star<N> star = scheme.riemann.star(left, right);  // eqs. (16), (19)
+    const PairSides<Scheme, T> sides{scheme, a, around_a};
+    const Between<dim, N> between = sides(b, around_b, d, inverse_r);
 
     const N scale = N(static_cast<T>(Kernel::normalisation)) * math::power<dim>(inverse_h) * b.m;
     const N mdW = scale * inverse_h * Kernel::slope(R);  // m_b / h dW/dR, not positive
-    const N du = star.u - left.u;
-    const N push =
-        mdW * star.p * (N(T(1)) / (left.rho * left.rho) + N(T(1)) / (right.rho * right.rho));
+    const N du = between.star.u - between.u_a;
+    const N face = mdW * scheme.form.area(between.rho_a, between.rho_b);
+    const N push = face * (between.star.p - N(static_cast<T>(scheme.background)));
     const N load = N(T(1)) - N(a.shell) * b.shell;  // pairs of virtual particles carry no load
-    sum.rho += mdW * du;
-    sum.e += push * du;
+    sum.rho += mdW * du * scheme.form.dilation(between.rho_a, between.rho_b);
+    sum.e += face * between.star.p * du;
     sum.v += (push * inverse_r * load) * d;
-    sum.power += push * (N(T(1)) - load) * left.u;
-    if constexpr (decltype(scheme.xsph)::acts)
-      sum.r += (scale * Kernel::shape(R) / (N(a.rho) + b.rho)) * (b.v - a.v);
-    if constexpr (decltype(scheme.stress)::acts) {
-      const auto transport = scheme.stress.pair(
-          scheme.eos, a, b, PairGeometry<dim, N>{inverse_r * d, (N(T(0)) - mdW) * inverse_r / b.m});
-      sum.v += load * transport.v;
-      sum.power += (N(T(1)) - load) * dot(transport.v, a.v);
-      sum.e += transport.e;
+    if constexpr (Scheme::Wall::surfaces)
+      sum.power += push * (N(a.shell) - b.shell * N(a.shell)) * du;
+    else
+      sum.power += push * (N(T(1)) - load) * between.u_a;
+    if constexpr (Scheme::Smoothing::acts) {
+      const N weight = scale * Kernel::shape(R);
+      sum.r += (weight / (N(a.rho) + b.rho)) * between.relative;
+      if constexpr (Scheme::Smoothing::shifts) {
+        const N volume = N(T(1)) / b.rho;
+        sum.crowd += (mdW * volume * inverse_r) * d;
+        sum.spread += weight * volume * norm2(between.relative);
+      }
+    }
+    if constexpr (Scheme::Density::relaxes) {
+      N weight = scale * Kernel::shape(R);
+      if constexpr (!Scheme::Wall::evolves)
+        weight = weight * math::select(b.shell > N(T(0.5)), N(a.rho) / b.rho, N(T(1)));
+      // The particle itself, which fills up packs, is no neighbour.
+      sum.density += math::select(R > N(T(1e-5)), weight, N(T(0)));
+    }
+    if constexpr (Scheme::Stress::acts) {
+      const N share = (N(T(0)) - mdW) * inverse_r / (N(a.rho) * b.rho);
+      const auto drag = scheme.stress.drag(share, inverse_r * d, between.dv);
+      sum.v -= load * drag;
+      if constexpr (Scheme::Wall::surfaces)
+        sum.power -= N(a.shell) * load * scheme.stress.conduction(share, between.dT);
+      else
+        sum.power -= (N(T(1)) - load) * dot(drag, a.v);
+      sum.e += dot(drag, between.rubbing) - scheme.stress.conduction(share, between.dT);
     }
     sum.pairs += math::select(R < N(static_cast<T>(Kernel::support)), N(T(1)), N(T(0)));
-  }
-
- private:
-  template <class N>
-  static SPHMBS_INLINE riemann::State<N> replaced(N where, const riemann::State<N>& stored,
-                                                  const riemann::State<N>& facing) {
-    const auto yes = where > N(T(0.5));
-    return {math::select(yes, facing.rho, stored.rho), math::select(yes, facing.u, stored.u),
-            math::select(yes, facing.p, stored.p), math::select(yes, facing.c, stored.c)};
+    sum.falls += between.fell;
   }
 };
 

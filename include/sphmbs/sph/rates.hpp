@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sphmbs/neighbours/neighbour_search.hpp>
+#include <sphmbs/particles/fields.hpp>
+#include <sphmbs/sph/gather.hpp>
 #include <sphmbs/sph/pair_term.hpp>
 
 namespace sphmbs::sph {
@@ -16,66 +17,91 @@ struct EvaluateRates {
 
   Scheme scheme;
   geometry::Periodicity<dim, T> space;
-  neighbours::NeighbourView neighbours;
-  const T* records;
+  Gathered<T> from;
   const std::uint8_t* set;
   particles::RatesView<dim, T> rates;
   T keep;    // weight of the rates that are there already [-]
   T border;  // how far particles see across periodic borders [m]
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
-    const auto a = particles::load_record<dim>(records, i);
-    const PairSums<dim, T> sum = space.near_border(a.r, border)
-                                     ? gather(i, PairTerm<Scheme, T, true>{scheme, space, a})
-                                     : gather(i, PairTerm<Scheme, T, false>{scheme, space, a});
+    const auto a = particles::load_record<dim>(from.records, i);
+    const PairSums<dim, T> sum =
+        space.near_border(a.r, border) ? sums<true>(i, a) : sums<false>(i, a);
     const bool moves = set[i] == particles::gas;
     const bool evolves = moves || Scheme::Wall::evolves;
-    const T rho = evolves ? T(2) * sum.rho : T(0);
+    const T rho = evolves ? T(2) * sum.rho + relaxation(a, sum) : T(0);
     write(rates.rho, i, rho, keep);
     write(rates.e, i, evolves ? sum.e : T(0), keep);
     write(rates.h, i, -a.h / (T(dim) * a.rho) * rho, keep);  // eq. (23)
-    const T smoothing = static_cast<T>(2 * scheme.xsph.zeta);
+    const Vec<dim, T> drift = moves ? velocity(a, sum) : Vec<dim, T>::all(T(0));
     for (int k = 0; k < dim; ++k) {
       if (moves) {
         write(rates.v[k], i, sum.v[k] + static_cast<T>(scheme.acceleration[k]), keep);
-        write(rates.r[k], i, a.v[k] + smoothing * sum.r[k], keep);  // eq. (14)
+        write(rates.r[k], i, drift[k], keep);
       } else {
         rates.v[k][i] = sum.v[k];
         rates.r[k][i] = k == 0 ? sum.power : T(0);
       }
     }
-    rates.pairs[i] = static_cast<std::uint16_t>(sum.pairs < T(65535) ? sum.pairs : T(65535));
+    rates.pairs[i] = count(sum.pairs);
+    rates.falls[i] = count(sum.falls);
   }
 
  private:
+  SPHMBS_INLINE T relaxation([[maybe_unused]] const particles::Record<dim, T>& a,
+                             [[maybe_unused]] const PairSums<dim, T>& sum) const {
+    if constexpr (Scheme::Density::relaxes) {
+      using Kernel = typename Scheme::Kernel;
+      const T inverse_h = T(1) / a.h;
+      const T own = a.m * static_cast<T>(Kernel::normalisation) * math::power<dim>(inverse_h) *
+                    Kernel::shape(T(0));
+      return static_cast<T>(scheme.density.rate) * a.c * inverse_h * (own + sum.density - a.rho);
+    } else {
+      return T(0);
+    }
+  }
+
   static SPHMBS_INLINE void write(T* field, std::size_t i, T value, T weight) {
     field[i] = weight != T(0) ? weight * field[i] + value : value;
   }
+  static SPHMBS_INLINE std::uint16_t count(T x) {
+    return static_cast<std::uint16_t>(x < T(65535) ? x : T(65535));
+  }
 
-  template <class Term>
-  SPHMBS_INLINE PairSums<dim, T> gather(std::size_t i, const Term& term) const {
-    PairSums<dim, Number<T, lanes>> sum;
-    const std::uint32_t* b = neighbours.list + neighbours.first[i];
-    const std::uint32_t* const end = neighbours.list + neighbours.first[i + 1];
-    for (; end - b >= lanes; b += lanes) term(particles::load_records<dim, lanes>(records, b), sum);
-    T idle = 0;
-    if (b != end) {
-      // The last pack is filled up with the particle itself, which adds nothing but one to the
-      // count.
-      std::uint32_t rest[lanes];
-#pragma GCC unroll 16
-      for (int l = 0; l < lanes; ++l) rest[l] = l < end - b ? b[l] : static_cast<std::uint32_t>(i);
-      idle = static_cast<T>(lanes - (end - b));
-      term(particles::load_records<dim, lanes>(records, rest), sum);
+  /// Velocity at which the particle's position moves.
+  SPHMBS_INLINE Vec<dim, T> velocity(const particles::Record<dim, T>& a,
+                                     const PairSums<dim, T>& sum) const {
+    Vec<dim, T> v = a.v + static_cast<T>(2 * scheme.smoothing.zeta) * sum.r;  // eq. (14)
+    if constexpr (Scheme::Smoothing::shifts) {
+      const Vec<dim, T> shift =
+          (static_cast<T>(scheme.smoothing.strength) * a.c * a.h * a.h) * sum.crowd;
+      const T most2 = static_cast<T>(scheme.smoothing.limit * scheme.smoothing.limit) * sum.spread;
+      const T size2 = norm2(shift);
+      v += (size2 > most2 ? math::sqrt(most2 / size2) : T(1)) * shift;
     }
+    return v;
+  }
+
+  template <bool wraps>
+  SPHMBS_INLINE PairSums<dim, T> sums(std::size_t i, const particles::Record<dim, T>& a) const {
+    particles::Vicinity<dim, T> around{};
+    if constexpr (Scheme::vicinity) around = particles::load_vicinity<dim>(from.vicinities, i);
+    PairSums<dim, Number<T, lanes>> sum;
+    const T idle = gather<dim, lanes, Scheme::vicinity>(
+        from, i, PairTerm<Scheme, T, wraps>{scheme, space, a, around}, sum);
     PairSums<dim, T> total{.rho = lane_sum(sum.rho), .e = lane_sum(sum.e)};
 #pragma GCC unroll 3
     for (int k = 0; k < dim; ++k) {
       total.v[k] = lane_sum(sum.v[k]);
       total.r[k] = lane_sum(sum.r[k]);
+      total.crowd[k] = lane_sum(sum.crowd[k]);
     }
+    total.spread = lane_sum(sum.spread);
     total.power = lane_sum(sum.power);
+    // The particle itself adds nothing but one to the count.
     total.pairs = lane_sum(sum.pairs) - idle;
+    total.density = lane_sum(sum.density);
+    total.falls = lane_sum(sum.falls);
     return total;
   }
 };

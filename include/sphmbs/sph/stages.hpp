@@ -8,6 +8,7 @@
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/record.hpp>
+#include <sphmbs/particles/slopes.hpp>
 #include <sphmbs/sph/scheme.hpp>
 
 namespace sphmbs::sph {
@@ -22,9 +23,12 @@ struct Stepped {
   T h;
 };
 
-/// y + scale k for gas; for virtual particles the prescribed motion to time + dt.
-template <int Dim, class T, class Motion>
+/// y + scale k for gas; for virtual particles the prescribed motion to time + dt. Those that know
+/// their surface have its velocity; those that carry no state keep their mass, so that their volume
+/// follows the solid's.
+template <class Scheme, class T, class Motion>
 struct Advance {
+  static constexpr int Dim = Scheme::dim;
   particles::FieldsView<Dim, T> fields;
   particles::RatesView<Dim, T> rates;
   Motion motion;
@@ -49,9 +53,29 @@ struct Advance {
     }
     if (!moves) {
       y.r = motion.position(fields.set[i], y.r, time, time + dt);
-      y.v = motion.velocity(fields.set[i], y.r, time + dt);
+      Vec<Dim, T> seen = y.r;  // the point whose velocity gas meets
+      if constexpr (Scheme::Wall::surfaces) {
+        const particles::Surface<Dim, T> s = surface(i);
+        seen += s.depth * s.normal;
+      }
+      y.v = motion.velocity(fields.set[i], seen, time + dt);
+      if constexpr (!Scheme::Wall::evolves) {
+        y.h *= stretch(i);
+        y.rho = y.rho / math::power<Dim>(stretch(i));
+      }
     }
     return y;
+  }
+
+  /// The surface in front of a virtual particle at time + dt; surfaces are known.
+  SPHMBS_INLINE particles::Surface<Dim, T> surface(std::size_t i) const {
+    return {boundary::turned(motion, fields.set[i], fields.normal_at(i), time, time + dt),
+            stretch(i) * fields.depth[i]};
+  }
+
+ private:
+  SPHMBS_INLINE T stretch(std::size_t i) const {
+    return static_cast<T>(boundary::stretch(motion, fields.set[i], time, time + dt));
   }
 };
 
@@ -62,10 +86,11 @@ template <class Scheme, class T, class Motion>
 struct WriteRecords {
   static constexpr int dim = Scheme::dim;
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-  Advance<dim, T, Motion> advance;
+  Advance<Scheme, T, Motion> advance;
   Scheme scheme;
   geometry::Periodicity<dim, T> space;
   T* records;
+  T* vicinities;
   std::uint32_t* culprit;
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
@@ -82,6 +107,9 @@ struct WriteRecords {
          .h = y.h,
          .m = advance.fields.m[i],
          .shell = advance.fields.set[i] == particles::gas ? T(0) : T(1)});
+    if constexpr (Scheme::Wall::surfaces)
+      if (advance.fields.set[i] != particles::gas)
+        particles::store_surface<dim, T>(vicinities, i, advance.surface(i));
     // Written so that a NaN, which compares false, is caught.
     bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
     for (int k = 0; k < dim; ++k) good = good && finite(y.r[k]) && finite(y.v[k]);
@@ -92,11 +120,12 @@ struct WriteRecords {
   static SPHMBS_INLINE bool finite(T x) { return math::abs(x) <= std::numeric_limits<T>::max(); }
 };
 
-/// Writes y(t + dt) over y(t) and wraps positions into the periodic box.
+/// Writes y(t + dt) over y(t), the surfaces of virtual particles included, and wraps positions into
+/// the periodic box.
 template <class Scheme, class T, class Motion>
 struct CommitStep {
   static constexpr int dim = Scheme::dim;
-  Advance<dim, T, Motion> advance;
+  Advance<Scheme, T, Motion> advance;
   geometry::Periodicity<dim, T> space;
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
@@ -107,6 +136,12 @@ struct CommitStep {
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
     fields.h[i] = y.h;
+    if constexpr (Scheme::Wall::surfaces) {
+      if (fields.set[i] == particles::gas) return;
+      const particles::Surface<dim, T> s = advance.surface(i);
+      particles::FieldsView<dim, T>::put(fields.normal, i, s.normal);
+      fields.depth[i] = s.depth;
+    }
   }
 };
 

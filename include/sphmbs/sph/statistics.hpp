@@ -9,9 +9,9 @@
 namespace sphmbs::sph {
 
 /// Parts of a step whose time is taken.
-enum class Phase : std::size_t { neighbours, rates, survey, update };
-inline constexpr std::array<std::string_view, 4> phase_names{"neighbours", "rates", "survey",
-                                                             "update"};
+enum class Phase : std::size_t { neighbours, slopes, rates, survey, update };
+inline constexpr std::array<std::string_view, 5> phase_names{"neighbours", "slopes", "rates",
+                                                             "survey", "update"};
 
 /// What a run has done so far.
 struct Statistics {
@@ -19,6 +19,8 @@ struct Statistics {
   std::uint64_t evaluations = 0;        // of the rates
   std::uint64_t rebuilds = 0;           // of the neighbour lists
   std::uint64_t pair_interactions = 0;  // ordered pairs inside the support, over all evaluations
+  std::uint64_t falls =
+      0;  // of them those that met a reconstruction not admissible and did without
   std::array<double, phase_names.size()> seconds{};
 
   /// Adds the time until the returned object dies to a phase.

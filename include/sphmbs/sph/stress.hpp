@@ -5,25 +5,11 @@
 #include <type_traits>
 
 #include <sphmbs/core/expects.hpp>
+#include <sphmbs/core/vec.hpp>
 #include <sphmbs/eos/ideal_gas.hpp>
-#include <sphmbs/particles/record.hpp>
 
 /// The shear stress of eq. (4) and the conduction of heat, as a policy.
 namespace sphmbs::sph {
-
-/// A pair as transport policies see it.
-template <int Dim, class N>
-struct PairGeometry {
-  Vec<Dim, N> n;  // unit vector from a to b [-]
-  N slope;        // -(dW/dr) / r, never negative [1/m^(Dim+2)]
-};
-
-/// What a pair gives to particle a beyond the Riemann fluxes.
-template <int Dim, class N>
-struct Transport {
-  Vec<Dim, N> v;  // acceleration [m/s^2]
-  N e;            // heating [W/kg]
-};
 
 /// No stress and no conduction, as in the paper's cases.
 struct Inviscid {
@@ -44,27 +30,30 @@ struct Inviscid {
 ///   de_a/dt += half the work of that force, never negative, - sum m_b F / (rho_a rho_b) 2 k T_ab
 ///
 /// in the limit of many neighbours rho dv/dt = mu lap v + (zeta + mu/3) grad div v, with the bulk
-/// viscosity zeta. Virtual particles act as no-slip walls of their own temperature. Angular
-/// momentum is conserved by the second term alone.
+/// viscosity zeta. The paper's virtual particles act as walls of their own temperature that gas
+/// sticks to. Angular momentum is conserved by the second term alone.
 struct Newtonian {
   static constexpr bool acts = true;
   double viscosity;         // mu [Pa s]
   double conductivity = 0;  // k [W/(m K)]
   double bulk = 0;          // zeta [Pa s]
 
-  /// Contribution of b to a.
-  template <int Dim, class N, class T, eos::EquationOfState E>
-  SPHMBS_INLINE Transport<Dim, N> pair(const E& eos, const particles::Record<Dim, T>& a,
-                                       const particles::Record<Dim, N>& b,
-                                       const PairGeometry<Dim, N>& g) const {
-    const N share = b.m * g.slope / (N(a.rho) * b.rho);
+  /// What b takes from the acceleration of a [m/s^2].
+  /// @param share  m_b F / (rho_a rho_b)
+  /// @param n      unit vector along the pair
+  /// @param dv     v_a - v_b [m/s]
+  template <int Dim, class N>
+  SPHMBS_INLINE Vec<Dim, N> drag(N share, const Vec<Dim, N>& n, const Vec<Dim, N>& dv) const {
+    using T = Scalar<N>;
     const N shear = N(static_cast<T>(5 * viscosity / 3 - bulk));
     const N along = N(static_cast<T>((Dim + 2) * (bulk + viscosity / 3)));
-    const Vec<Dim, N> dv = a.v - b.v;
-    const Vec<Dim, N> drag = share * (shear * dv + (along * dot(g.n, dv)) * g.n);
-    const N dT = N(eos.temperature(a.rho, a.p)) - eos.temperature(b.rho, b.p);
-    return {.v = N(-1) * drag,
-            .e = N(T(0.5)) * dot(drag, dv) - share * N(static_cast<T>(2 * conductivity)) * dT};
+    return share * (shear * dv + (along * dot(n, dv)) * n);
+  }
+
+  /// Heat that a gives to b, by its mass, for the difference of temperatures T_a - T_b [W/kg].
+  template <class N>
+  SPHMBS_INLINE N conduction(N share, N dT) const {
+    return share * N(static_cast<Scalar<N>>(2 * conductivity)) * dT;
   }
 
   /// Largest diffusivity of momentum or heat at a density [m^2/s].

@@ -28,9 +28,10 @@ struct Survey {
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
   double h_rate = 0;         // largest rate of change of h [m/s]
   std::uint64_t pairs = 0;   // ordered pairs inside the support
+  std::uint64_t falls = 0;   // of them those whose reconstruction was refused
   Vec<Dim> wall_force = {};  // of the gas on all virtual particles [N]
   double wall_power = 0;     // of the gas on virtual particles, sum f.v [W]
-  double layer_power = 0;    // of virtual particles on each other [W]
+  double layer_power = 0;    // of virtual particles on each other, see RatesView [W]
   Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
   Limit courant;             // h / (c + h |div v|)
   Limit acceleration;        // sqrt(h / |a|)
@@ -43,6 +44,7 @@ struct Survey {
     }
     h_rate = math::max(h_rate, o.h_rate);
     pairs += o.pairs;
+    falls += o.falls;
     wall_force += o.wall_force;
     wall_power += o.wall_power;
     layer_power += o.layer_power;
@@ -78,6 +80,7 @@ struct SurveyParticle {
     found.slowest = found.fastest = drift;
     found.h_rate = share * math::abs(static_cast<double>(rates.h[i]));
     found.pairs = rates.pairs[i];
+    found.falls = rates.falls[i];
     const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;
     found.courant = {h / (static_cast<double>(s.c) + h * divergence), id};
     const double m = static_cast<double>(s.m);

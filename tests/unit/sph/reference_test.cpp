@@ -131,11 +131,11 @@ TEST_CASE("XSPH with zeta 0 is no XSPH, and its drift is proportional to zeta", 
   const auto cloud = test::disordered_cloud<2>(12, 0.1, 10);
   const auto domain = test::cube<2>(1.2, true);
   test::Gas<2> gas;
-  gas.xsph.zeta = 0;
+  gas.smoothing.zeta = 0;
   const auto none = test::rates_of(gas, domain, cloud);
-  gas.xsph.zeta = 0.25;
+  gas.smoothing.zeta = 0.25;
   const auto some = test::rates_of(gas, domain, cloud);
-  gas.xsph.zeta = 1;
+  gas.smoothing.zeta = 1;
   const auto all = test::rates_of(gas, domain, cloud);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     CHECK(none.r[i] == cloud.v[i]);

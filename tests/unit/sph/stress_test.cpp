@@ -209,7 +209,7 @@ TEST_CASE("a bad parameter of any policy stops a fluid before it begins", "[sph]
   gas.eos.gamma = 1;
   CHECK_THAT(begin(gas), Contains("gamma = 1"));
   gas.eos.gamma = 1.4;
-  gas.xsph.zeta = 1.5;
+  gas.smoothing.zeta = 1.5;
   CHECK_THAT(begin(gas), Contains("XSPH zeta = 1.5"));
 }
 

@@ -25,6 +25,8 @@ using WalledGas = test::Gas<2, sphmbs::sph::Xsph, sphmbs::sph::Inviscid, Wall>;
 /// A wall of no state of its own: the gas meets its mirror image.
 struct Mirror {
   static constexpr bool evolves = false;
+  static constexpr bool surfaces = false;
+  void check() const {}
   template <class N>
   sphmbs::riemann::State<N> facing(const sphmbs::riemann::State<N>& gas,
                                    const sphmbs::riemann::State<N>& stored) const {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include <sphmbs/sph/presets.hpp>
+
+#include "support/settings.hpp"
+
+namespace sphmbs::examples {
+
+/// Adds --scheme to a command line: the paper's equations or the best that the library has.
+inline void add_scheme(CommandLine& command_line, std::string& scheme) {
+  command_line.add_choice("--scheme", scheme, {"paper", "best"},
+                          "the paper's equations, or the library's best for this case");
+}
+
+/// The choices of a scheme in words, for banners.
+template <class Gas>
+std::string describe() {
+  std::string text = "quintic spline";
+  if constexpr (std::is_same_v<typename Gas::Riemann, riemann::Acoustic>)
+    text += ", acoustic Riemann solver";
+  if constexpr (std::is_same_v<typename Gas::Riemann, riemann::Hllc>) text += ", HLLC";
+  if constexpr (Gas::Reconstruction::slopes) text += ", MUSCL";
+  if constexpr (Gas::Density::relaxes) text += ", relaxed density";
+  if constexpr (Gas::Smoothing::acts) text += ", XSPH 0.5";
+  if constexpr (Gas::Smoothing::shifts) text += ", shifting";
+  if constexpr (Gas::Wall::surfaces)
+    text += ", walls extrapolated";
+  else
+    text += ", walls evolved";
+  return text;
+}
+
+}  // namespace sphmbs::examples

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sphmbs/particles/record.hpp>
+#include <sphmbs/particles/slopes.hpp>
+#include <sphmbs/sph/scheme.hpp>
+
+namespace sphmbs::sph {
+
+/// What is found between the particles a and b of a pair.
+template <int Dim, class N>
+struct Between {
+  riemann::Star<N> star;  // velocity along the line from a to b, and pressure
+  N u_a;                  // velocity of a along that line, eq. (17) [m/s]
+  N rho_a;                // densities that weigh the face between them [kg/m^3]
+  N rho_b;
+  N fell = N(0);                                 // 1 where a reconstruction was refused
+  Vec<Dim, N> relative;                          // v_b - v_a, b's as a sees it [m/s]
+  Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));       // v_a - v_b for the viscous stress [m/s]
+  Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  // velocity by which that stress heats a [m/s]
+  N dT = N(0);                                   // T_a - T_b for the conduction of heat [K]
+};
+
+/// The two sides of a pair's Riemann problem and its solution: as the particles are, reconstructed
+/// between gas and gas, by the wall model between gas and wall.
+template <class Scheme, class T>
+struct PairSides {
+  static constexpr int dim = Scheme::dim;
+  using Wall = typename Scheme::Wall;
+
+  const Scheme& scheme;
+  const particles::Record<dim, T>& a;
+  const particles::Vicinity<dim, T>& around_a;
+
+  template <class N>
+  SPHMBS_INLINE Between<dim, N> operator()(const particles::Record<dim, N>& b,
+                                           const particles::Vicinity<dim, N>& around_b,
+                                           const Vec<dim, N>& d, N inverse_r) const {
+    // Eq. (17): velocities along the line from a to b.
+    riemann::State<N> left{N(a.rho), dot(a.v, d) * inverse_r, N(a.p), N(a.c)};
+    riemann::State<N> right{b.rho, dot(b.v, d) * inverse_r, b.p, b.c};
+    Between<dim, N> found{
+        .star = {}, .u_a = left.u, .rho_a = left.rho, .rho_b = right.rho, .relative = b.v - a.v};
+    if constexpr (Scheme::Stress::acts) {
+      found.dv = a.v - b.v;
+      found.rubbing = N(T(0.5)) * found.dv;
+      found.dT = N(scheme.eos.temperature(a.rho, a.p)) - scheme.eos.temperature(b.rho, b.p);
+    }
+    if constexpr (!Wall::evolves && !Wall::surfaces) {
+      const riemann::State<N> stored = left;
+      left = replaced(N(a.shell) * (N(T(1)) - b.shell), stored, scheme.wall.facing(right, stored));
+      right = replaced(b.shell * N(T(1) - a.shell), right, scheme.wall.facing(stored, right));
+      found.rho_a = left.rho;
+      found.rho_b = right.rho;
+    }
+    if constexpr (Scheme::Reconstruction::slopes)
+      found.fell = reconstruct(b, around_b, d, inverse_r, left, right);
+    found.star = scheme.riemann.star(scheme.eos, left, right);  // eqs. (16), (19)
+    if constexpr (Wall::surfaces) {
+      const N walls = N(a.shell) + b.shell;
+      if (math::any(walls > N(T(0.5)))) meet_wall(b, around_b, d, inverse_r, found);
+    }
+    return found;
+  }
+
+ private:
+  template <class N>
+  static SPHMBS_INLINE riemann::State<N> replaced(N where, const riemann::State<N>& stored,
+                                                  const riemann::State<N>& facing) {
+    const auto yes = where > N(T(0.5));
+    return {math::select(yes, facing.rho, stored.rho), math::select(yes, facing.u, stored.u),
+            math::select(yes, facing.p, stored.p), math::select(yes, facing.c, stored.c)};
+  }
+
+  /// Carries both states to the middle of the pair; returns 1 where they would not be admissible.
+  template <class N>
+  SPHMBS_INLINE N reconstruct(const particles::Record<dim, N>& b,
+                              const particles::Vicinity<dim, N>& around_b, const Vec<dim, N>& d,
+                              N inverse_r, riemann::State<N>& left,
+                              riemann::State<N>& right) const {
+    const auto& method = scheme.reconstruction;
+    const auto& sa = around_a.slopes;
+    const auto& sb = around_b.slopes;
+    N ua = N(T(0));
+    N ub = N(T(0));
+#pragma GCC unroll 3
+    for (int k = 0; k < dim; ++k) {
+      ua += d[k] * dot(sa.v[k], d);
+      ub += d[k] * dot(sb.v[k], d);
+    }
+    const N drho = right.rho - left.rho;
+    const N du = right.u - left.u;
+    const N dp = right.p - left.p;
+    riemann::State<N> l{left.rho + method.step(N(dot(sa.rho, d)), drho),
+                        left.u + method.step(ua * inverse_r, du),
+                        left.p + method.step(N(dot(sa.p, d)), dp), N(T(0))};
+    riemann::State<N> r{right.rho - method.step(N(dot(sb.rho, d)), drho),
+                        right.u - method.step(ub * inverse_r, du),
+                        right.p - method.step(N(dot(sb.p, d)), dp), N(T(0))};
+    l.c = scheme.eos.sound_speed(l.rho, l.p);
+    r.c = scheme.eos.sound_speed(r.rho, r.p);
+    // A sound speed that is no number compares false.
+    const auto good = (l.rho > N(T(0))) & (r.rho > N(T(0))) & (l.c > N(T(0))) & (r.c > N(T(0)));
+    if constexpr (Wall::evolves) {
+      left = chosen(good, l, left);
+      right = chosen(good, r, right);
+      return math::select(good, N(T(0)), N(T(1)));
+    } else {
+      const auto gas = N(a.shell) + b.shell < N(T(0.5));
+      left = chosen(good & gas, l, left);
+      right = chosen(good & gas, r, right);
+      return math::select(good, N(T(0)), math::select(gas, N(T(1)), N(T(0))));
+    }
+  }
+
+  template <class Condition, class N>
+  static SPHMBS_INLINE riemann::State<N> chosen(Condition yes, const riemann::State<N>& x,
+                                                const riemann::State<N>& y) {
+    return {math::select(yes, x.rho, y.rho), math::select(yes, x.u, y.u),
+            math::select(yes, x.p, y.p), math::select(yes, x.c, y.c)};
+  }
+
+  /// Replaces what was found where gas meets a virtual particle with what the wall model says.
+  template <class N>
+  SPHMBS_INLINE void meet_wall(const particles::Record<dim, N>& b,
+                               const particles::Vicinity<dim, N>& around_b, const Vec<dim, N>& d,
+                               N inverse_r, Between<dim, N>& found) const {
+    boundary::Contact<dim, N> contact;
+    Vec<dim, N> gas_to_contact;  // v_gas - v*
+    Vec<dim, N> gas_to_wall;
+    Vec<dim, N> normal;
+    N gas_T = N(T(0));
+    N sign = N(T(1));
+    auto yes = b.shell > N(T(0.5));
+    if (a.shell > T(0.5)) {
+      const boundary::Meeting<dim, N> m{b,
+                                        around_b.slopes,
+                                        a.v.template to<N>(),
+                                        N(T(-1)) * d,
+                                        N(T(-1)) * around_a.surface.normal,
+                                        N(around_a.surface.depth)};
+      contact = scheme.wall.contact(m);
+      gas_to_contact = m.gas.v - contact.v;
+      gas_to_wall = m.gas.v - m.wall_velocity;
+      normal = m.normal;
+      sign = N(T(-1));
+      yes = b.shell < N(T(0.5));
+      if constexpr (Scheme::Stress::acts) gas_T = scheme.eos.temperature(b.rho, b.p);
+    } else {
+      const boundary::Meeting<dim, N> m{
+          wide<N>(a), wide<N>(around_a.slopes),           b.v,
+          d,          N(T(-1)) * around_b.surface.normal, around_b.surface.depth};
+      contact = scheme.wall.contact(m);
+      gas_to_contact = m.gas.v - contact.v;
+      gas_to_wall = m.gas.v - m.wall_velocity;
+      normal = m.normal;
+      if constexpr (Scheme::Stress::acts) gas_T = N(scheme.eos.temperature(a.rho, a.p));
+    }
+    found.star.p = math::select(yes, contact.p, found.star.p);
+    found.star.u = math::select(yes, dot(contact.v, d) * inverse_r, found.star.u);
+    // Linear through the middle: the far end is as far off again.
+#pragma GCC unroll 3
+    for (int k = 0; k < dim; ++k)
+      found.relative[k] = math::select(yes, N(T(-2)) * sign * gas_to_contact[k], found.relative[k]);
+    if constexpr (Scheme::Stress::acts) {
+      // All friction heats the gas.
+      const N wall_T = N(static_cast<T>(scheme.wall.temperature));
+      N dT = N(T(0));
+      if (scheme.wall.temperature > 0) dT = N(T(2)) * sign * (gas_T - wall_T);
+      found.dT = math::select(yes, dT, found.dT);
+      // Gas that slips shears nothing at the wall.
+      if constexpr (Wall::slips) gas_to_contact = dot(gas_to_contact, normal) * normal;
+#pragma GCC unroll 3
+      for (int k = 0; k < dim; ++k) {
+        found.dv[k] = math::select(yes, N(T(2)) * sign * gas_to_contact[k], found.dv[k]);
+        found.rubbing[k] = math::select(yes, sign * gas_to_wall[k], found.rubbing[k]);
+      }
+    }
+  }
+
+  template <class N>
+  static SPHMBS_INLINE particles::Record<dim, N> wide(const particles::Record<dim, T>& s) {
+    return {s.r.template to<N>(),
+            s.v.template to<N>(),
+            N(s.rho),
+            N(s.p),
+            N(s.c),
+            N(s.h),
+            N(s.m),
+            N(s.shell)};
+  }
+  template <class N>
+  static SPHMBS_INLINE particles::Slopes<dim, N> wide(const particles::Slopes<dim, T>& s) {
+    particles::Slopes<dim, N> w{s.rho.template to<N>(), s.p.template to<N>(), {}};
+#pragma GCC unroll 3
+    for (int k = 0; k < dim; ++k) w.v[k] = s.v[k].template to<N>();
+    return w;
+  }
+};
+
+}  // namespace sphmbs::sph
