@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <sphmbs/geometry/box.hpp>
 #include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/geometry/shape.hpp>
 #include <sphmbs/particles/cloud.hpp>
 #include <sphmbs/riemann/exact_solution.hpp>
 
@@ -76,7 +78,10 @@ class SodTube {
     const double edge = Dim == 1 ? step : std::pow(step * std::pow(side, Dim - 1), 1.0 / Dim);
     const particles::State<Dim> s{.rho = state.rho, .p = state.p};
     cloud.add_gas(gas, s, {edge});
-    cloud.add_virtual(wall, s, {edge});
+    geometry::Box<Dim> tube{.lower = Vec<Dim>::all(-1e3), .upper = Vec<Dim>::all(1e3)};
+    tube.lower[0] = 0;
+    tube.upper[0] = 1;
+    cloud.add_virtual(wall, s, {edge}, outside(tube));
   }
 
   long dense_;

@@ -6,6 +6,7 @@
 #include <sphmbs/neighbours/cell_grid.hpp>
 #include <sphmbs/neighbours/cell_neighbours.hpp>
 #include <sphmbs/neighbours/find_neighbours.hpp>
+#include <sphmbs/neighbours/shielding.hpp>
 
 namespace sphmbs::neighbours {
 
@@ -98,12 +99,19 @@ class CellList {
                                          find, nullptr, first_.data(), list_.data()});
     else
       Policy::for_each(n, detail::ListNeighbours<Dim, T, W>{find, first_.data(), list_.data()});
+    if (particles.fields().sheet != nullptr)
+      shielding_.apply(particles, find.space, first_.data(), list_.data(), pairs);
   }
 
-  NeighbourView view() const { return {first_.data(), first_.data() + 1, list_.data()}; }
+  NeighbourView view() const {
+    const bool shielded = shielding_.last() != nullptr;
+    return {first_.data(), shielded ? shielding_.last() : first_.data() + 1, list_.data()};
+  }
 
   /// Memory held [bytes].
-  std::size_t bytes() const { return first_.bytes() + list_.bytes() + cell_first_.bytes(); }
+  std::size_t bytes() const {
+    return first_.bytes() + list_.bytes() + cell_first_.bytes() + shielding_.bytes();
+  }
 
  private:
   void sort(particles::Particles<Dim, T, Policy>& particles, const CellGrid<Dim, T>& grid,
@@ -125,6 +133,7 @@ class CellList {
   execution::Field<std::uint32_t, Policy> cell_first_;
   execution::Field<std::uint64_t, Policy> first_;
   execution::Field<std::uint32_t, Policy> list_;
+  Shielding<Dim, T, Policy> shielding_;
 };
 
 }  // namespace sphmbs::neighbours

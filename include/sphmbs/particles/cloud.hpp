@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -40,7 +41,8 @@ struct Cloud {
   std::vector<std::uint8_t> set;  // gas, or the number of a set of virtual particles
   std::vector<Vec<Dim>> normal;  // of the surface before a virtual particle; zero where unknown [-]
   std::vector<double> depth;     // of a virtual particle below that surface [m]
-  int sets = 0;                  // sets of virtual particles so far
+  std::vector<std::uint8_t> sheet;  // what a virtual particle is of a thin body
+  int sets = 0;                     // sets of virtual particles so far
 
   std::size_t size() const { return r.size(); }
 
@@ -48,6 +50,11 @@ struct Cloud {
     std::size_t n = 0;
     for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
     return n;
+  }
+
+  /// Whether there are thin bodies.
+  bool has_sheets() const {
+    return std::any_of(sheet.begin(), sheet.end(), [](std::uint8_t s) { return s != no_sheet; });
   }
 
   /// Whether any virtual particle knows its surface.
@@ -101,6 +108,45 @@ struct Cloud {
     return number;
   }
 
+  /// The two sets of virtual particles of a thin body.
+  struct Sides {
+    int front;  // towards the normals
+    int back;
+  };
+
+  /// Adds a thin body, whose two sides gas feels apart: `layers` layers of virtual particles for
+  /// each side, the first on the body itself, the others behind it as seen from that side. Gas on
+  /// one side sees neither gas nor layers of the other side.
+  /// @param points   centres of patches of one resolution's spacing that make up the body
+  /// @param normals  unit vectors across the body, one a point
+  /// @throws InvalidInput as `add_virtual`, and for normals that do not fit.
+  Sides add_sheet(const std::vector<Vec<Dim>>& points, const std::vector<Vec<Dim>>& normals,
+                  const State<Dim>& state, const Resolution& resolution, int layers = 4) {
+    expects(normals.size() == points.size(), "normals of a sheet", normals.size(),
+            "as many as points, " + std::to_string(points.size()));
+    expects(layers >= 1 && layers <= 8, "layers of a sheet", layers, "between 1 and 8");
+    for (const Vec<Dim>& n : normals)
+      expects(std::abs(norm2(n) - 1) < 1e-6, "length of a sheet's normal", std::sqrt(norm2(n)),
+              "1");
+    const auto side = [&](double sign) {
+      std::vector<Vec<Dim>> all;
+      for (int layer = 0; layer < layers; ++layer)
+        for (std::size_t i = 0; i < points.size(); ++i)
+          all.push_back(points[i] - (sign * layer * resolution.spacing) * normals[i]);
+      const int number = add_virtual(all, state, resolution);
+      const std::size_t first = size() - all.size();
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::size_t layer = i / points.size();
+        normal[first + i] = sign * normals[i % points.size()];
+        depth[first + i] = static_cast<double>(layer) * resolution.spacing;
+        sheet[first + i] = layer == 0 && sign > 0 ? sheet_patch : sheet_layer;
+      }
+      return number;
+    };
+    const int front = side(1);
+    return {front, side(-1)};
+  }
+
  private:
   void add(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
            const Resolution& resolution, std::uint8_t number) {
@@ -120,6 +166,7 @@ struct Cloud {
     set.resize(n, number);
     normal.resize(n, Vec<Dim>::all(0.0));
     depth.resize(n, 0.0);
+    sheet.resize(n, no_sheet);
   }
 };
 

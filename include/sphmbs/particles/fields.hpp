@@ -9,6 +9,12 @@
 /// The gas's data: one array a field (structure of arrays), resident where the loops run.
 namespace sphmbs::particles {
 
+/// What a virtual particle is of a thin body: nothing; seen from the side its normal points to; and
+/// a patch that gas on one side does not see gas on the other through.
+inline constexpr std::uint8_t no_sheet = 0;
+inline constexpr std::uint8_t sheet_layer = 1;
+inline constexpr std::uint8_t sheet_patch = 2;
+
 /// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ...
 inline constexpr std::uint8_t gas = 0;
 
@@ -24,8 +30,9 @@ struct FieldsView {
   T* m;            // mass [kg]
   T* normal[Dim];  // of the surface a virtual particle lies behind, out of the solid; null if none
   T* depth;        // of a virtual particle below its surface [m]; null if none
-  std::uint32_t* id;  // place in the initial cloud; never changes
-  std::uint8_t* set;  // gas, or which set of virtual particles
+  std::uint8_t* sheet;  // what a virtual particle is of a thin body; null if there is none
+  std::uint32_t* id;    // place in the initial cloud; never changes
+  std::uint8_t* set;    // gas, or which set of virtual particles
 
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }

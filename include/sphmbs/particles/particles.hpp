@@ -68,6 +68,7 @@ class Particles {
         put(normal_[k], [&](std::size_t i) { return cloud.normal[i][k]; });
       put(depth_, [&](std::size_t i) { return cloud.depth[i]; });
     }
+    if (cloud.has_sheets()) sheet_ = Field<std::uint8_t>(cloud.sheet);
     std::vector<std::uint32_t> id(n);
     std::iota(id.begin(), id.end(), 0u);
     id_ = Field<std::uint32_t>(id);
@@ -88,6 +89,7 @@ class Particles {
                          .m = m_.data(),
                          .normal = {},
                          .depth = depth_.data(),
+                         .sheet = sheet_.data(),
                          .id = id_.data(),
                          .set = set_.data()};
     for (int k = 0; k < Dim; ++k) {
@@ -129,11 +131,13 @@ class Particles {
     }
     permute_small(id_, order);
     permute_small(set_, order);
+    if (sheet_.size() > 0) permute_small(sheet_, order);
   }
 
   /// Memory held [bytes].
   std::size_t bytes() {
-    std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes() + falls_.bytes();
+    std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes() +
+                    falls_.bytes() + sheet_.bytes();
     for (Field<T>* f : numbers()) b += f->bytes();
     for (Field<T>* f : surfaces()) b += f->bytes();
     return b;
@@ -167,7 +171,7 @@ class Particles {
   Field<T> r_[Dim], v_[Dim], rho_, e_, h_, m_;
   Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
   Field<std::uint32_t> id_;
-  Field<std::uint8_t> set_;
+  Field<std::uint8_t> set_, sheet_;
   Field<T> normal_[Dim], depth_;
   Field<std::uint16_t> pairs_, falls_;
   Field<T> records_;

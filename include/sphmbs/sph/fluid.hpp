@@ -168,6 +168,10 @@ class Fluid {
   /// the first stage.
   particles::Particles<dim, T, Policy>& particles() { return particles_; }
 
+  /// For particles::load_vicinity: slopes of gas particles and surfaces of virtual ones at the last
+  /// evaluation of the rates, where the scheme needs them; else null.
+  const T* vicinities() const { return vicinities_.data(); }
+
   /// Memory held [bytes].
   std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include <sphmbs/execution/field.hpp>
+#include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/particles/particles.hpp>
+
+namespace sphmbs::neighbours {
+
+namespace detail {
+
+/// Lists as they are, and what they are judged by.
+template <int Dim, class T>
+struct ListedSheets {
+  particles::FieldsView<Dim, T> fields;
+  geometry::Periodicity<Dim, T> space;
+  const std::uint64_t* first;
+  const std::uint32_t* list;
+
+  SPHMBS_INLINE Vec<Dim, T> way(std::size_t a, std::size_t b) const {
+    return space.nearest(fields.position(b) - fields.position(a));
+  }
+
+  /// Whether the sheet's layer s is seen from the place of particle a.
+  SPHMBS_INLINE bool in_front(std::size_t s, std::size_t a) const {
+    return dot(way(s, a), fields.normal_at(s)) > fields.depth[s];
+  }
+
+  /// Whether the straight way from a to b meets the patch s: a disc that covers a square patch.
+  SPHMBS_INLINE bool blocks(std::size_t s, std::size_t a, std::size_t b) const {
+    const Vec<Dim, T> n = fields.normal_at(s);
+    const Vec<Dim, T> from = way(s, a);
+    const Vec<Dim, T> d = way(a, b);
+    const T start = dot(from, n);
+    const T end = start + dot(d, n);
+    if (!(start * end < T(0))) return false;
+    const Vec<Dim, T> crossing = from + (start / (start - end)) * d;
+    const T volume = fields.m[s] / fields.rho[s];
+    const T spacing2 = Dim == 2 ? volume : T(std::cbrt(static_cast<double>(volume * volume)));
+    return norm2(crossing) <= T(0.2505 * (Dim - 1)) * spacing2;
+  }
+
+  /// Whether a patch in the list of `owner` lies between a and b.
+  SPHMBS_INLINE bool hidden(std::size_t owner, std::size_t a, std::size_t b) const {
+    for (std::uint64_t k = first[owner]; k < first[owner + 1]; ++k)
+      if (fields.sheet[list[k]] == particles::sheet_patch && blocks(list[k], a, b)) return true;
+    return false;
+  }
+};
+
+/// Notes which particles have patches in their lists.
+template <int Dim, class T>
+struct FindPatches {
+  ListedSheets<Dim, T> listed;
+  std::uint8_t* near;
+
+  SPHMBS_INLINE void operator()(std::size_t a) const {
+    std::uint8_t found = 0;
+    for (std::uint64_t k = listed.first[a]; k < listed.first[a + 1]; ++k)
+      if (listed.fields.sheet[listed.list[k]] == particles::sheet_patch) found = 1;
+    near[a] = found;
+  }
+};
+
+/// Judges every entry of a particle's list, the same from both ends of a pair.
+template <int Dim, class T>
+struct JudgePairs {
+  ListedSheets<Dim, T> listed;
+  const std::uint8_t* near;
+  std::uint8_t* keep;
+
+  SPHMBS_INLINE void operator()(std::size_t a) const {
+    for (std::uint64_t k = listed.first[a]; k < listed.first[a + 1]; ++k)
+      keep[k] = seen(a, listed.list[k]) ? 1 : 0;
+  }
+
+ private:
+  SPHMBS_INLINE bool seen(std::size_t a, std::size_t b) const {
+    const auto& fields = listed.fields;
+    const bool gas_a = fields.set[a] == particles::gas;
+    const bool gas_b = fields.set[b] == particles::gas;
+    if (gas_a && fields.sheet[b] != particles::no_sheet) return listed.in_front(b, a);
+    if (gas_b && fields.sheet[a] != particles::no_sheet) return listed.in_front(a, b);
+    if (!gas_a && !gas_b && fields.set[a] != fields.set[b])
+      return fields.sheet[a] == particles::no_sheet && fields.sheet[b] == particles::no_sheet;
+    if (!gas_a || !gas_b) return true;
+    // From the particle that was first, so that rounding decides alike for both.
+    const bool in_order = fields.id[a] < fields.id[b];
+    const std::size_t from = in_order ? a : b;
+    const std::size_t to = in_order ? b : a;
+    return !((near[a] != 0 && listed.hidden(a, from, to)) ||
+             (near[b] != 0 && listed.hidden(b, from, to)));
+  }
+};
+
+/// Closes the gaps in a particle's list.
+struct ClosePairs {
+  const std::uint64_t* first;
+  const std::uint8_t* keep;
+  std::uint32_t* list;
+  std::uint64_t* last;
+
+  SPHMBS_INLINE void operator()(std::size_t a) const {
+    std::uint64_t end = first[a];
+    for (std::uint64_t k = first[a]; k < first[a + 1]; ++k)
+      if (keep[k] != 0) list[end++] = list[k];
+    last[a] = end;
+  }
+};
+
+}  // namespace detail
+
+/// Takes out of the lists who does not see whom past a thin body: gas on its one side and gas or
+/// layers of the other.
+template <int Dim, class T, execution::ExecutionPolicy Policy>
+class Shielding {
+ public:
+  /// Judges lists that were just made: n + 1 entries of `first`, `pairs` of `list`.
+  void apply(particles::Particles<Dim, T, Policy>& particles,
+             const geometry::Periodicity<Dim, T>& space, const std::uint64_t* first,
+             std::uint32_t* list, std::uint64_t pairs) {
+    const std::size_t n = particles.size();
+    last_.resize_discarding(n);
+    const detail::ListedSheets<Dim, T> listed{particles.fields(), space, first, list};
+    execution::Field<std::uint8_t, Policy> near(n);
+    execution::Field<std::uint8_t, Policy> keep(pairs);
+    Policy::for_each(n, detail::FindPatches<Dim, T>{listed, near.data()});
+    Policy::for_each(n, detail::JudgePairs<Dim, T>{listed, near.data(), keep.data()});
+    Policy::for_each(n, detail::ClosePairs{first, keep.data(), list, last_.data()});
+  }
+
+  /// Where the list of each particle ends; null while nothing was judged.
+  const std::uint64_t* last() const { return last_.data(); }
+
+  /// Memory held [bytes].
+  std::size_t bytes() const { return last_.bytes(); }
+
+ private:
+  execution::Field<std::uint64_t, Policy> last_;
+};
+
+}  // namespace sphmbs::neighbours

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Thin bodies: who sees whom past them.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <sphmbs/neighbours/cell_list.hpp>
+
+#include "support/catch.hpp"
+#include "support/clouds.hpp"
+#include "support/policies.hpp"
+
+namespace {
+
+using sphmbs::Vec;
+
+constexpr double spacing = 0.1;
+constexpr double reach = 3 * 1.25 * spacing;
+
+template <int Dim>
+double length(const Vec<Dim>& x) {
+  return std::sqrt(norm2(x));
+}
+
+/// A square or cube of gas with a sheet at height 1 over a part of it.
+template <int Dim>
+struct Case {
+  sphmbs::particles::Cloud<Dim> cloud;
+  std::size_t gas = 0;
+  sphmbs::geometry::Domain<Dim> domain = test::cube<Dim>(Dim == 2 ? 2.0 : 1.2, false);
+
+  explicit Case(bool periodic) {
+    domain.periodic.fill(periodic);
+    const int n = Dim == 2 ? 20 : 12;
+    cloud.add_gas(test::cell_centres<Dim>(n, spacing), test::still_air<Dim>(),
+                  {.spacing = spacing});
+    test::disturb(cloud, spacing, 91, {.smoothing = 0, .mass = 0});
+    gas = cloud.size();
+    std::vector<Vec<Dim>> patches;
+    for (const auto& x : test::cell_centres<Dim>(n, spacing)) {
+      if (std::abs(x[Dim - 1] - 0.55) > 0.01) continue;
+      bool inside = true;
+      for (int k = 0; k < Dim - 1; ++k) inside = inside && x[k] > 0.3 && x[k] < 0.9;
+      Vec<Dim> centre = x;
+      centre[Dim - 1] = 0.6;
+      if (inside) patches.push_back(centre);
+    }
+    Vec<Dim> up = Vec<Dim>::all(0.0);
+    up[Dim - 1] = 1;
+    cloud.add_sheet(patches, std::vector<Vec<Dim>>(patches.size(), up), test::still_air<Dim>(),
+                    {.spacing = spacing});
+  }
+
+  /// Whether the straight way between two points crosses the sheet, whose patches are squares.
+  bool crosses(const Vec<Dim>& a, const Vec<Dim>& b) const {
+    const double start = a[Dim - 1] - 0.6;
+    const double end = b[Dim - 1] - 0.6;
+    if (start * end >= 0) return false;
+    const Vec<Dim> x = a + (start / (start - end)) * (b - a);
+    for (int k = 0; k < Dim - 1; ++k)
+      if (x[k] < 0.3 || x[k] > 0.9) return false;
+    return true;
+  }
+};
+
+/// Ordered pairs by id that are listed.
+template <int Dim, class Policy>
+std::set<std::pair<std::uint32_t, std::uint32_t>> listed(const Case<Dim>& c) {
+  sphmbs::particles::Particles<Dim, double, Policy> particles(c.cloud,
+                                                              [](double, double) { return 1.0; });
+  sphmbs::neighbours::CellList<Dim, double, Policy> search;
+  search.rebuild(particles, c.domain, {.support = 3, .skin = 0, .h_max = 1.25 * spacing});
+  const auto view = search.view();
+  const auto* id = particles.fields().id;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t a = 0; a < particles.size(); ++a)
+    for (auto k = view.first[a]; k < view.last[a]; ++k) pairs.insert({id[a], id[view.list[k]]});
+  return pairs;
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("gas does not see gas through a thin body", "[neighbours]",
+                        test::Policies) {
+  const Case<2> c(false);
+  const auto pairs = listed<2, TestType>(c);
+  std::size_t hidden = 0;
+  for (std::uint32_t a = 0; a < c.gas; ++a)
+    for (std::uint32_t b = 0; b < c.gas; ++b) {
+      if (a == b || length(c.cloud.r[a] - c.cloud.r[b]) >= reach) continue;
+      const bool crosses = c.crosses(c.cloud.r[a], c.cloud.r[b]);
+      hidden += crosses ? 1 : 0;
+      REQUIRE(pairs.count({a, b}) == (crosses ? 0 : 1));
+    }
+  CHECK(hidden > 100);
+}
+
+TEMPLATE_LIST_TEST_CASE("in space no way through a sheet is left and only its rim is wider",
+                        "[neighbours]", test::Policies) {
+  const Case<3> c(false);
+  const auto pairs = listed<3, TestType>(c);
+  std::size_t hidden = 0, wrongly = 0;
+  for (std::uint32_t a = 0; a < c.gas; ++a)
+    for (std::uint32_t b = 0; b < c.gas; ++b) {
+      if (a == b || length(c.cloud.r[a] - c.cloud.r[b]) >= reach) continue;
+      const bool crosses = c.crosses(c.cloud.r[a], c.cloud.r[b]);
+      const bool seen = pairs.count({a, b}) == 1;
+      if (crosses) {
+        ++hidden;
+        REQUIRE(!seen);
+      } else if (!seen) {
+        ++wrongly;
+      }
+    }
+  CHECK(hidden > 1000);
+  CHECK(wrongly < hidden / 5);
+}
+
+TEMPLATE_LIST_TEST_CASE("gas sees the layers of its own side alone, and pairs see each other",
+                        "[neighbours]", test::Policies) {
+  for (const bool periodic : {false, true}) {
+    const Case<2> c(periodic);
+    const auto pairs = listed<2, TestType>(c);
+    std::size_t seen = 0;
+    for (const auto& [a, b] : pairs) {
+      REQUIRE(pairs.count({b, a}) == 1);
+      if (a >= c.gas || b < c.gas) continue;
+      const bool front = c.cloud.normal[b][1] > 0;
+      // Without a wrap, since the sheet is far from the border along y.
+      REQUIRE(front == (c.cloud.r[a][1] > 0.6));
+      ++seen;
+    }
+    CHECK(seen > 100);
+    for (const auto& [a, b] : pairs)
+      if (a >= c.gas && b >= c.gas) REQUIRE(c.cloud.set[a] == c.cloud.set[b]);
+  }
+}
+
+TEST_CASE("sheets that make no sense are refused", "[particles]") {
+  sphmbs::particles::Cloud<2> cloud;
+  const auto air = test::still_air<2>();
+  CHECK_THROWS_WITH(cloud.add_sheet({{0, 0}}, {}, air, {.spacing = 1}), Catch::Contains("normals"));
+  CHECK_THROWS_WITH(cloud.add_sheet({{0, 0}}, {{0, 2}}, air, {.spacing = 1}),
+                    Catch::Contains("length of a sheet's normal = 2"));
+  CHECK_THROWS_WITH(cloud.add_sheet({{0, 0}}, {{0, 1}}, air, {.spacing = 1}, 0),
+                    Catch::Contains("layers of a sheet = 0"));
+}
