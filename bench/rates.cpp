@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One evaluation of the rates of change: the pair loop and the survey that follows it.
+#include <sphmbs/boundary/mirrored.hpp>
+#include <sphmbs/riemann/exact.hpp>
+#include <sphmbs/riemann/limited_acoustic.hpp>
 #include <sphmbs/sph/fluid.hpp>
+#include <sphmbs/sph/presets.hpp>
 
 #include "support/gas_box.hpp"
 #include "support/registry.hpp"
@@ -20,8 +24,11 @@ void evaluate(benchmark::State& state, const Gas& gas, std::size_t about) {
 
   const double n = static_cast<double>(fluid.size());
   const double pairs = static_cast<double>(fluid.survey().pairs);
-  const auto loop = static_cast<std::size_t>(sph::Phase::rates);
-  const double in_loop = fluid.statistics().seconds[loop] - seconds_before[loop];
+  double in_loop = 0;
+  for (const sph::Phase phase : {sph::Phase::slopes, sph::Phase::rates}) {
+    const auto at = static_cast<std::size_t>(phase);
+    in_loop += fluid.statistics().seconds[at] - seconds_before[at];
+  }
   state.counters["pairs/s"] = bench::per_second(pairs);
   state.counters["pairs/s in the loop"] = pairs * static_cast<double>(state.iterations()) / in_loop;
   state.counters["particles/s"] = bench::per_second(n);
@@ -44,6 +51,38 @@ void add(const std::string& equations, const Gas& gas) {
   add_type(float{}, "float");
 }
 
+/// One choice at a time: what it costs against the paper's scheme, in plane gas.
+template <class Riemann, class... Policies>
+void add_choice(const std::string& name) {
+  using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, Riemann, eos::IdealGas, Policies...>;
+  bench::for_policies([&]<class Policy>(Policy, const std::string& policy, int threads) {
+    bench::add("choice/" + name + "/" + policy, threads, [](benchmark::State& state) {
+      evaluate<Gas, double, Policy>(state, Gas{}, 100'000);
+    });
+  });
+}
+
+void add_choices() {
+  using namespace reconstruction;
+  using riemann::Acoustic;
+  add_choice<Acoustic>("paper");
+  add_choice<riemann::LimitedAcoustic>("limited_acoustic");
+  add_choice<riemann::Hllc>("hllc");
+  add_choice<riemann::Exact>("exact");
+  add_choice<Acoustic, Muscl<VanLeer>>("van_leer");
+  add_choice<Acoustic, Muscl<Minmod>>("minmod");
+  add_choice<Acoustic, Muscl<BarthJespersen>>("barth_jespersen");
+  add_choice<Acoustic, sph::VolumeForm>("volume_form");
+  add_choice<Acoustic, sph::Relaxed>("relaxed");
+  add_choice<Acoustic, sph::NoXsph>("no_xsph");
+  add_choice<Acoustic, sph::Shifting>("shifting");
+  add_choice<Acoustic, boundary::Mirrored>("mirrored");
+  add_choice<Acoustic, boundary::FreeSlip>("free_slip");
+  add_choice<Acoustic, Muscl<>, sph::VolumeForm, sph::Shifting, boundary::FreeSlip>("smooth");
+  add_choice<riemann::Hllc, Muscl<>, sph::VolumeForm, sph::Relaxed, sph::NoXsph,
+             boundary::FreeSlip>("shock");
+}
+
 [[maybe_unused]] const bool registered = [] {
   bench::for_dimensions([]<int dim>(bench::Int<dim>) {
     const sph::Newtonian air{.viscosity = 1.8e-5, .conductivity = 0.026};
@@ -52,6 +91,7 @@ void add(const std::string& equations, const Gas& gas) {
     add("xsph/newtonian", bench::Gas<dim, sph::Xsph, sph::Newtonian>{.stress = air});
     add("no_xsph/newtonian", bench::Gas<dim, sph::NoXsph, sph::Newtonian>{.stress = air});
   });
+  add_choices();
   return true;
 }();
 
