@@ -25,9 +25,9 @@ struct Extrapolated {
   static constexpr bool surfaces = true;
   static constexpr bool slips = slip;
 
-  double temperature = 0;  // of the wall [K]; 0: adiabatic
-  double strength = 3;     // of the dissipation [-]
-  double steepest = 4;     // bound of phi [-]
+  bool isothermal = false;  // at the temperature of the virtual particles' own state, or adiabatic
+  double strength = 3;      // of the dissipation [-]
+  double steepest = 4;      // bound of phi [-]
 
   template <int Dim, class N>
   SPHMBS_INLINE Contact<Dim, N> contact(const Meeting<Dim, N>& m) const {
@@ -38,6 +38,7 @@ struct Extrapolated {
     const Vec<Dim, N> relative = m.gas.v - m.wall_velocity;
     const N closing = dot(relative, m.normal);
     Contact<Dim, N> middle;
+    middle.phi = phi;
     if constexpr (slip) {
       Vec<Dim, N> change;
 #pragma GCC unroll 3
@@ -58,9 +59,8 @@ struct Extrapolated {
     return middle;
   }
 
-  /// @throws InvalidInput for a negative temperature or strength, or `steepest` below 1/2.
+  /// @throws InvalidInput for a negative strength, or `steepest` below 1/2.
   void check() const {
-    expects(temperature >= 0, "wall temperature", temperature, "positive [K], or 0: adiabatic");
     expects(strength >= 0, "strength of a wall's dissipation", strength, "zero or positive");
     expects(steepest >= 0.5, "steepest", steepest, "at least 0.5");
   }

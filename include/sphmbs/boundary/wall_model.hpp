@@ -27,6 +27,7 @@ template <int Dim, class N>
 struct Contact {
   Vec<Dim, N> v;  // velocity [m/s]
   N p;            // pressure [Pa]
+  N phi;          // way to the middle as a share of the gas's distance from the surface [-]
 };
 
 /// A wall model says what gas meets at a virtual particle. There are two kinds:
@@ -51,7 +52,7 @@ concept WallModel = std::is_trivially_copyable_v<W> && requires(const W wall) {
     requires(const W wall, Meeting<2, double> meeting) {
       { W::slips } -> std::convertible_to<bool>;
       { wall.contact(meeting) } -> std::same_as<Contact<2, double>>;
-      { wall.temperature } -> std::convertible_to<double>;
+      { wall.isothermal } -> std::convertible_to<bool>;
     });
 
 }  // namespace sphmbs::boundary

@@ -19,9 +19,11 @@ struct Integrated {
 
 /// Eq. (20), and on top a pull towards the density of the masses around,
 ///
-///   d rho_a / dt += rate c_a / h_a (sum m_b W_ab - rho_a),
+///   d rho_a / dt += rate c_a / h_a (m_a sum W_ab - rho_a),
 ///
-/// a virtual particle without a state counting as gas like a. Without it shocks leave a density
+/// a virtual particle without a state counting as gas like a. (With m_a, not m_b, as Hu and Adams
+/// 2006, for gases of different density on one lattice; particles of different mass in one gas are
+/// drawn off where they meet.) Without it shocks leave a density
 /// that is some percent off for ever, with it they converge; mass, momentum and energy are
 /// conserved all the same. In slow gas the disorder of particles becomes noise of the pressure.
 struct Relaxed {

@@ -32,11 +32,11 @@ struct NoXsph {
 /// XSPH, and on top of it a drift from where particles crowd to where they are sparse, which keeps
 /// their arrangement regular in long runs and at low pressure (Lind et al. 2012; Oger et al. 2016):
 ///
-///   dr_a/dt += -strength c_a h_a^2 sum V_b grad W, at most `limit` times the root mean square of
+///   dr_a/dt += -strength c_a h_a sum V_b grad W, at most `limit` times the root mean square of
 ///   the neighbours' velocities relative to v_a
 ///
-/// Fields are carried along and not corrected, so particles represent the gas of a place up to
-/// h^2 c strength |sum V_b grad W| off: a diffusion that vanishes with the disorder.
+/// Fields are carried along and not corrected: in the frame of the gas they move with that drift,
+/// an error of the drift times their gradient, which vanishes with the disorder.
 struct Shifting {
   static constexpr bool acts = true;
   static constexpr bool shifts = true;

@@ -99,8 +99,11 @@ struct PairSides {
                         right.p - method.step(N(dot(sb.p, d)), dp), N(T(0))};
     l.c = scheme.eos.sound_speed(l.rho, l.p);
     r.c = scheme.eos.sound_speed(r.rho, r.p);
-    // A sound speed that is no number compares false.
-    const auto good = (l.rho > N(T(0))) & (r.rho > N(T(0))) & (l.c > N(T(0))) & (r.c > N(T(0)));
+    // A sound speed that is no number compares false. Across more than a shock's jump of density
+    // two gases meet, of which the lighter one has no use for a slope between them.
+    const N most = N(T(10));
+    const auto good = (l.rho > N(T(0))) & (r.rho > N(T(0))) & (l.c > N(T(0))) & (r.c > N(T(0))) &
+                      (left.rho < most * right.rho) & (right.rho < most * left.rho);
     if constexpr (Wall::evolves) {
       left = chosen(good, l, left);
       right = chosen(good, r, right);
@@ -129,7 +132,7 @@ struct PairSides {
     Vec<dim, N> gas_to_contact;  // v_gas - v*
     Vec<dim, N> gas_to_wall;
     Vec<dim, N> normal;
-    N gas_T = N(T(0));
+    N excess = N(T(0));  // temperature of the gas over the wall's [K]
     N sign = N(T(1));
     auto yes = b.shell > N(T(0.5));
     if (a.shell > T(0.5)) {
@@ -145,7 +148,8 @@ struct PairSides {
       normal = m.normal;
       sign = N(T(-1));
       yes = b.shell < N(T(0.5));
-      if constexpr (Scheme::Stress::acts) gas_T = scheme.eos.temperature(b.rho, b.p);
+      if constexpr (Scheme::Stress::acts)
+        excess = scheme.eos.temperature(b.rho, b.p) - N(scheme.eos.temperature(a.rho, a.p));
     } else {
       const boundary::Meeting<dim, N> m{
           wide<N>(a), wide<N>(around_a.slopes),           b.v,
@@ -154,7 +158,8 @@ struct PairSides {
       gas_to_contact = m.gas.v - contact.v;
       gas_to_wall = m.gas.v - m.wall_velocity;
       normal = m.normal;
-      if constexpr (Scheme::Stress::acts) gas_T = N(scheme.eos.temperature(a.rho, a.p));
+      if constexpr (Scheme::Stress::acts)
+        excess = N(scheme.eos.temperature(a.rho, a.p)) - scheme.eos.temperature(b.rho, b.p);
     }
     found.star.p = math::select(yes, contact.p, found.star.p);
     found.star.u = math::select(yes, dot(contact.v, d) * inverse_r, found.star.u);
@@ -164,10 +169,8 @@ struct PairSides {
       found.relative[k] = math::select(yes, N(T(-2)) * sign * gas_to_contact[k], found.relative[k]);
     if constexpr (Scheme::Stress::acts) {
       // All friction heats the gas.
-      const N wall_T = N(static_cast<T>(scheme.wall.temperature));
-      N dT = N(T(0));
-      if (scheme.wall.temperature > 0) dT = N(T(2)) * sign * (gas_T - wall_T);
-      found.dT = math::select(yes, dT, found.dT);
+      const N lets = N(static_cast<T>(scheme.wall.isothermal ? 2 : 0));
+      found.dT = math::select(yes, lets * sign * contact.phi * excess, found.dT);
       // Gas that slips shears nothing at the wall.
       if constexpr (Wall::slips) gas_to_contact = dot(gas_to_contact, normal) * normal;
 #pragma GCC unroll 3

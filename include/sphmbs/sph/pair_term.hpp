@@ -76,9 +76,11 @@ struct PairTerm {
       }
     }
     if constexpr (Scheme::Density::relaxes) {
-      N weight = scale * Kernel::shape(R);
+      // m_a W: lighter particles beside heavier ones are not drawn to their density.
+      N weight = scale * Kernel::shape(R) * (N(a.m) / b.m);
       if constexpr (!Scheme::Wall::evolves)
-        weight = weight * math::select(b.shell > N(T(0.5)), N(a.rho) / b.rho, N(T(1)));
+        weight =
+            math::select(b.shell > N(T(0.5)), weight * (N(a.rho) * b.m) / (b.rho * N(a.m)), weight);
       // The particle itself, which fills up packs, is no neighbour.
       sum.density += math::select(R > N(T(1e-5)), weight, N(T(0)));
     }

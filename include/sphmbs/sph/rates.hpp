@@ -73,8 +73,7 @@ struct EvaluateRates {
                                      const PairSums<dim, T>& sum) const {
     Vec<dim, T> v = a.v + static_cast<T>(2 * scheme.smoothing.zeta) * sum.r;  // eq. (14)
     if constexpr (Scheme::Smoothing::shifts) {
-      const Vec<dim, T> shift =
-          (static_cast<T>(scheme.smoothing.strength) * a.c * a.h * a.h) * sum.crowd;
+      const Vec<dim, T> shift = (static_cast<T>(scheme.smoothing.strength) * a.c * a.h) * sum.crowd;
       const T most2 = static_cast<T>(scheme.smoothing.limit * scheme.smoothing.limit) * sum.spread;
       const T size2 = norm2(shift);
       v += (size2 > most2 ? math::sqrt(most2 / size2) : T(1)) * shift;
