@@ -39,8 +39,9 @@ struct Minmod {
 };
 
 /// Slopes are shortened particle by particle until no value in the middle of a pair leaves the
-/// range of the neighbours (Barth and Jespersen 1989; in this form Hopkins 2015). Smooth extrema
-/// away from neighbours' values keep their slopes, so it is the least dissipative of the three.
+/// range of the neighbours (Barth and Jespersen 1989; in this form Hopkins 2015). Sound is damped
+/// as little as with van Leer's; shear flow along walls, whose largest values have no equal beyond
+/// them, is braked more.
 struct BarthJespersen {
   static constexpr bool limits_particles = true;
 
