@@ -26,7 +26,7 @@ using Best = Scheme<reconstruction::Muscl<SelectedLimiter>, sph::VolumeForm, sph
 struct Choices {
   std::string scheme = "paper";
   std::string riemann = "auto";
-  std::string limiter = "van_leer";
+  std::string limiter = "auto";
   bool no_xsph = false;
 };
 
@@ -47,13 +47,14 @@ void shock_tube(const examples::Settings& settings, const Choices& choices, Poli
                              : best                    ? "hllc"
                                                        : "acoustic";
   Gas gas{.eos = {.gamma = 1.4}, .riemann = SelectedRiemann::of(solver)};
-  if constexpr (best) gas.reconstruction.limiter = SelectedLimiter::of(choices.limiter);
+  const std::string limiter = choices.limiter == "auto" ? "van_leer" : choices.limiter;
+  if constexpr (best) gas.reconstruction.limiter = SelectedLimiter::of(limiter);
   sph::Fluid<Gas, Policy> fluid(gas, tube.domain(), std::move(cloud), {}, policy);
 
   examples::Session session(settings, case_name, "Sod's shock tube in " + std::to_string(dim) + "D",
                             fluid);
   session.note("gas", "ideal gas gamma 1.4; " + examples::describe<Gas>() + ", Riemann solver " +
-                          solver + (best ? ", limiter " + choices.limiter : ""));
+                          solver + (best ? ", limiter " + limiter : ""));
   session.record("energy", "J", [&] { return fluid.totals().energy(); });
   session.run(time::PredictorCorrector{}, 20, 4);
   examples::compare_with_exact(session, fluid, tube);
@@ -72,13 +73,20 @@ int main(int argc, char** argv) {
   solvers.insert(solvers.begin(), "auto");
   command_line.add_choice("--riemann", choices.riemann, solvers,
                           "Riemann solver; auto: acoustic in the paper's scheme, hllc in the best");
-  command_line.add_choice("--limiter", choices.limiter, SelectedLimiter::names(),
-                          "limiter of the slopes of --scheme best");
+  std::vector<std::string> limiters = SelectedLimiter::names();
+  limiters.insert(limiters.begin(), "auto");
+  command_line.add_choice("--limiter", choices.limiter, limiters,
+                          "limiter of the slopes of --scheme best; auto: van_leer");
   command_line.add_flag("--no-xsph", choices.no_xsph,
                         "move particles with their own velocities, as --scheme best does");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    const bool best = choices.scheme == "best";
+    examples::require(best || choices.limiter == "auto", "--limiter", choices.limiter,
+                      "left out: the paper's scheme has no slopes to limit");
+    examples::require(!best || !choices.no_xsph, "--no-xsph", "with --scheme best",
+                      "left out: that scheme has no XSPH");
     examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (choices.scheme == "best")
+      if (best)
         shock_tube<Best>(s, choices, policy);
       else if (choices.no_xsph)
         shock_tube<Scheme<sph::NoXsph>>(s, choices, policy);

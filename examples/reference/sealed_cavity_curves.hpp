@@ -18,8 +18,9 @@ inline double isentropic_increase(double l) { return 25000 * (std::pow(1 / (l * 
 /// Energies over time: the work of the walls on the gas (`work`), that of the force which drives
 /// the walls, their own compression included (`work_driving`), and the increase of the energy of
 /// gas and of virtual particles. work_driving = energy_gas + energy_virtual up to the integrator;
-/// work exceeds energy_gas by the heat that the virtual particles, which lag behind the gas, take
-/// from it.
+/// work exceeds energy_gas by the heat that the paper's virtual particles, which lag behind the
+/// gas, take from it, or, with walls of known surface, by the work on the layers' own contraction;
+/// for these work_driving is what passes to the gas at the surface.
 template <class Fluid>
 void record_energies(Session<Fluid>& session, Fluid& fluid) {
   const auto start = fluid.totals();

@@ -28,7 +28,8 @@ struct ListedSheets {
     return dot(way(s, a), fields.normal_at(s)) > fields.depth[s];
   }
 
-  /// Whether the straight way from a to b meets the patch s: a disc that covers a square patch.
+  /// Whether the straight way from a to b meets the patch s: a disc that covers a square patch, and
+  /// a little more, since patches of a curved body stand apart on its outer side.
   SPHMBS_INLINE bool blocks(std::size_t s, std::size_t a, std::size_t b) const {
     const Vec<Dim, T> n = fields.normal_at(s);
     const Vec<Dim, T> from = way(s, a);
@@ -37,9 +38,8 @@ struct ListedSheets {
     const T end = start + dot(d, n);
     if (!(start * end < T(0))) return false;
     const Vec<Dim, T> crossing = from + (start / (start - end)) * d;
-    const T volume = fields.m[s] / fields.rho[s];
-    const T spacing2 = Dim == 2 ? volume : T(std::cbrt(static_cast<double>(volume * volume)));
-    return norm2(crossing) <= T(0.2505 * (Dim - 1)) * spacing2;
+    const T width = fields.patch[s];
+    return Dim == 1 || norm2(crossing) <= T(0.28 * (Dim - 1)) * width * width;
   }
 
   /// Whether a patch in the list of `owner` lies between a and b.

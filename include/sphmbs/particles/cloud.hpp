@@ -64,6 +64,14 @@ struct Cloud {
     return false;
   }
 
+  /// @throws InvalidInput where virtual particles were added without their solid.
+  void require_surfaces() const {
+    for (std::size_t i = 0; i < size(); ++i)
+      expects(set[i] == gas || (i < normal.size() && norm2(normal[i]) > 0),
+              "set of virtual particles", static_cast<int>(set[i]),
+              "added with its solid, whose surface this wall model needs");
+  }
+
   /// Adds gas, of mass rho spacing^Dim each.
   /// @throws InvalidInput for a density, pressure or spacing that is not positive and finite.
   void add_gas(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
@@ -84,11 +92,17 @@ struct Cloud {
 
   /// The same for virtual particles of a solid, whose surface gas is to meet truly: the solid's
   /// signed distance gives each particle its depth below the surface and the surface's normal.
-  /// @param solid  any geometry::Shape
-  /// @throws InvalidInput also for a point that the distance gives no direction at.
+  /// @param solid  any geometry::Shape whose distance is exact near the surface; for walls around
+  ///               gas geometry::outside(shape)
+  /// @throws InvalidInput also for a point outside the solid by more than half a spacing, or one
+  ///         that the distance gives no direction at.
   template <class Solid>
   int add_virtual(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
                   const Resolution& resolution, const Solid& solid) {
+    for (const Vec<Dim>& x : points)
+      expects(-solid.distance(x) > -0.5 * resolution.spacing,
+              "depth of a virtual particle below its solid's surface", -solid.distance(x),
+              "positive [m]; the solid around gas is outside(shape)");
     const int number = add_virtual(points, state, resolution);
     const std::size_t first = size() - points.size();
     for (std::size_t i = first; i < size(); ++i) {
@@ -116,7 +130,10 @@ struct Cloud {
 
   /// Adds a thin body, whose two sides gas feels apart: `layers` layers of virtual particles for
   /// each side, the first on the body itself, the others behind it as seen from that side. Gas on
-  /// one side sees neither gas nor layers of the other side.
+  /// one side sees neither gas nor layers of the other side. Gas begins a whole spacing off the
+  /// body, whose layers take the place of a lattice's points on and behind it; as many layers as
+  /// the support reaches keep gas from being drawn through. Walls and other thin bodies behind it
+  /// and nearer than a support are still seen.
   /// @param points   centres of patches of one resolution's spacing that make up the body
   /// @param normals  unit vectors across the body, one a point
   /// @throws InvalidInput as `add_virtual`, and for normals that do not fit.

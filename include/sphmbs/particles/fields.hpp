@@ -30,6 +30,7 @@ struct FieldsView {
   T* m;            // mass [kg]
   T* normal[Dim];  // of the surface a virtual particle lies behind, out of the solid; null if none
   T* depth;        // of a virtual particle below its surface [m]; null if none
+  T* patch;        // width of the patch of a thin body that a virtual particle is [m]; null if none
   std::uint8_t* sheet;  // what a virtual particle is of a thin body; null if there is none
   std::uint32_t* id;    // place in the initial cloud; never changes
   std::uint8_t* set;    // gas, or which set of virtual particles

@@ -63,12 +63,19 @@ class Particles {
     if (cloud.has_surfaces()) {
       expects(cloud.normal.size() == n && cloud.depth.size() == n, "entries of a cloud's surfaces",
               cloud.normal.size(), "as many as positions, " + std::to_string(n));
-      for (Field<T>* f : surfaces()) *f = Field<T>(padded());
+      depth_ = Field<T>(padded());
+      for (Field<T>& f : normal_) f = Field<T>(padded());
       for (int k = 0; k < Dim; ++k)
         put(normal_[k], [&](std::size_t i) { return cloud.normal[i][k]; });
       put(depth_, [&](std::size_t i) { return cloud.depth[i]; });
     }
-    if (cloud.has_sheets()) sheet_ = Field<std::uint8_t>(cloud.sheet);
+    if (cloud.has_sheets()) {
+      expects(cloud.sheet.size() == n && cloud.has_surfaces(), "entries of a cloud's sheets",
+              cloud.sheet.size(), "as many as positions, with their surfaces");
+      sheet_ = Field<std::uint8_t>(cloud.sheet);
+      patch_ = Field<T>(padded());
+      put(patch_, [&](std::size_t i) { return std::pow(cloud.m[i] / cloud.rho[i], 1.0 / Dim); });
+    }
     std::vector<std::uint32_t> id(n);
     std::iota(id.begin(), id.end(), 0u);
     id_ = Field<std::uint32_t>(id);
@@ -89,6 +96,7 @@ class Particles {
                          .m = m_.data(),
                          .normal = {},
                          .depth = depth_.data(),
+                         .patch = patch_.data(),
                          .sheet = sheet_.data(),
                          .id = id_.data(),
                          .set = set_.data()};
@@ -155,7 +163,7 @@ class Particles {
   }
 
   std::vector<Field<T>*> surfaces() {
-    std::vector<Field<T>*> all{&depth_};
+    std::vector<Field<T>*> all{&depth_, &patch_};
     for (int k = 0; k < Dim; ++k) all.push_back(&normal_[k]);
     return all;
   }
@@ -172,7 +180,7 @@ class Particles {
   Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
   Field<std::uint32_t> id_;
   Field<std::uint8_t> set_, sheet_;
-  Field<T> normal_[Dim], depth_;
+  Field<T> normal_[Dim], depth_, patch_;
   Field<std::uint16_t> pairs_, falls_;
   Field<T> records_;
   Field<T> scratch_;

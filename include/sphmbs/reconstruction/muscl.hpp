@@ -8,8 +8,8 @@ namespace sphmbs::reconstruction {
 /// Piecewise linear: density, velocity and pressure are carried to the middle of the pair along the
 /// renormalised gradients of the two particles (van Leer 1979; for particles Vila 1999, Inutsuka
 /// 2002), as far as a limiter allows. Exact for linear fields on any arrangement of particles.
-/// A pair whose sides would not be admissible gas keeps the values at the particles, and is
-/// counted.
+/// A pair whose sides would not be admissible gas, or whose densities differ more than tenfold (two
+/// gases meet), keeps the values at the particles, and is counted.
 template <Limiter LimiterType = VanLeer>
 struct Muscl {
   static constexpr bool slopes = true;

@@ -53,9 +53,10 @@ class Fluid {
     static_assert(time::ExplicitSystem<Fluid>);
     scheme.check();
     domain.check();
-    check_surfaces(cloud);
+    if constexpr (Scheme::Wall::surfaces) cloud.require_surfaces();
     if constexpr (Scheme::vicinity)
-      vicinities_.resize_discarding(size() * particles::slopes_size<dim>);
+      vicinities_ =
+          execution::Field<T, Policy>(std::vector<T>(size() * particles::slopes_size<dim>));
     for (std::size_t i = 0; i < cloud.size(); ++i)
       gas_mass_ += cloud.set[i] == particles::gas ? cloud.m[i] : 0;
     const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
@@ -183,15 +184,6 @@ class Fluid {
     return cloud;
   }
 
-  static void check_surfaces([[maybe_unused]] const particles::Cloud<dim>& cloud) {
-    if constexpr (Scheme::Wall::surfaces) {
-      for (std::size_t i = 0; i < cloud.size(); ++i)
-        expects(cloud.set[i] == particles::gas || norm2(cloud.normal[i]) > 0,
-                "set of virtual particles", static_cast<int>(cloud.set[i]),
-                "added with its solid, whose surface this wall model needs");
-    }
-  }
-
   Advance<Scheme, T, Motion> advance(double scale, double dt) {
     return {particles_.fields(), particles_.rates(), motion_, static_cast<T>(scale), time_, dt};
   }
@@ -208,14 +200,12 @@ class Fluid {
 
   /// How much further virtual particles move in a time than their velocity at its beginning says.
   double motion_surplus([[maybe_unused]] double dt) {
-    if constexpr (std::is_same_v<Motion, boundary::Fixed>) {
+    if constexpr (std::is_same_v<Motion, boundary::Fixed>)
       return 0;
-    } else {
-      return execution::reduce<Policy>(
-                 size(), Surplus{},
-                 MotionSurplus<dim, T, Motion>{particles_.fields(), motion_, time_, dt})
+    else
+      return execution::reduce<Policy>(size(), Surplus{},
+                                       MotionSurplus<Scheme, T, Motion>{advance(0, dt)})
           .length;
-    }
   }
 
   void rebuild_lists(double dt) {

@@ -19,6 +19,9 @@ struct Between {
   Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));       // v_a - v_b for the viscous stress [m/s]
   Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  // velocity by which that stress heats a [m/s]
   N dT = N(0);                                   // T_a - T_b for the conduction of heat [K]
+  // Where gas slips only the part of the drag along the normal acts.
+  N slips = N(0);
+  Vec<Dim, N> normal = Vec<Dim, N>::all(N(0));
 };
 
 /// The two sides of a pair's Riemann problem and its solution: as the particles are, reconstructed
@@ -50,8 +53,14 @@ struct PairSides {
       const riemann::State<N> stored = left;
       left = replaced(N(a.shell) * (N(T(1)) - b.shell), stored, scheme.wall.facing(right, stored));
       right = replaced(b.shell * N(T(1) - a.shell), right, scheme.wall.facing(stored, right));
-      found.rho_a = left.rho;
-      found.rho_b = right.rho;
+      if constexpr (Scheme::Stress::acts) {
+        // Such walls take no heat: friction heats the gas alone.
+        const auto yes = N(a.shell) + b.shell > N(T(0.5));
+        found.dT = math::select(yes, N(T(0)), found.dT);
+#pragma GCC unroll 3
+        for (int k = 0; k < dim; ++k)
+          found.rubbing[k] = math::select(yes, found.dv[k], found.rubbing[k]);
+      }
     }
     if constexpr (Scheme::Reconstruction::slopes)
       found.fell = reconstruct(b, around_b, d, inverse_r, left, right);
@@ -172,7 +181,12 @@ struct PairSides {
       const N lets = N(static_cast<T>(scheme.wall.isothermal ? 2 : 0));
       found.dT = math::select(yes, lets * sign * contact.phi * excess, found.dT);
       // Gas that slips shears nothing at the wall.
-      if constexpr (Wall::slips) gas_to_contact = dot(gas_to_contact, normal) * normal;
+      if constexpr (Wall::slips) {
+        gas_to_contact = dot(gas_to_contact, normal) * normal;
+        gas_to_wall = dot(gas_to_wall, normal) * normal;
+        found.slips = math::select(yes, N(T(1)), N(T(0)));
+        found.normal = normal;
+      }
 #pragma GCC unroll 3
       for (int k = 0; k < dim; ++k) {
         found.dv[k] = math::select(yes, N(T(2)) * sign * gas_to_contact[k], found.dv[k]);

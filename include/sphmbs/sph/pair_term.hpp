@@ -13,7 +13,7 @@ struct PairSums {
   N e = N(0);                                  // eq. (22) and heat
   Vec<Dim, N> v = Vec<Dim, N>::all(N(0));      // eq. (21) and viscous stress
   Vec<Dim, N> r = Vec<Dim, N>::all(N(0));      // the sum of eq. (14), without its sign
-  Vec<Dim, N> crowd = Vec<Dim, N>::all(N(0));  // sum of V_b grad W [1/m]
+  Vec<Dim, N> crowd = Vec<Dim, N>::all(N(0));  // -sum of V_b grad W [1/m]
   N spread = N(0);                             // mean square of relative velocities [m^2/s^2]
   // By m_a, on a virtual particle: the power of other virtual particles; with surfaces what the
   // gas gets from a less than the work of its force.
@@ -30,6 +30,12 @@ template <class Scheme, class T, bool wraps>
 struct PairTerm {
   static constexpr int dim = Scheme::dim;
   using Kernel = typename Scheme::Kernel;
+  static constexpr bool slips = [] {
+    if constexpr (Scheme::Wall::surfaces)
+      return Scheme::Wall::slips;
+    else
+      return false;
+  }();
 
   const Scheme& scheme;
   const geometry::Periodicity<dim, T>& space;
@@ -56,15 +62,23 @@ struct PairTerm {
     const N scale = N(static_cast<T>(Kernel::normalisation)) * math::power<dim>(inverse_h) * b.m;
     const N mdW = scale * inverse_h * Kernel::slope(R);  // m_b / h dW/dR, not positive
     const N du = between.star.u - between.u_a;
-    const N face = mdW * scheme.form.area(between.rho_a, between.rho_b);
+    // A virtual particle without a state has a volume, whatever the gas's density.
+    N area = scheme.form.area(between.rho_a, between.rho_b);
+    N dilation = scheme.form.dilation(between.rho_a, between.rho_b);
+    if constexpr (!Scheme::Wall::evolves) {
+      const auto wall = N(a.shell) + b.shell > N(T(0.5));
+      area = math::select(wall, VolumeForm{}.area(between.rho_a, between.rho_b), area);
+      dilation = math::select(wall, VolumeForm{}.dilation(between.rho_a, between.rho_b), dilation);
+    }
+    const N face = mdW * area;
     const N push = face * (between.star.p - N(static_cast<T>(scheme.background)));
     const N load = N(T(1)) - N(a.shell) * b.shell;  // pairs of virtual particles carry no load
-    sum.rho += mdW * du * scheme.form.dilation(between.rho_a, between.rho_b);
+    sum.rho += mdW * du * dilation;
     sum.e += face * between.star.p * du;
     sum.v += (push * inverse_r * load) * d;
     if constexpr (Scheme::Wall::surfaces)
       sum.power += push * (N(a.shell) - b.shell * N(a.shell)) * du;
-    else
+    else if constexpr (Scheme::Wall::evolves)
       sum.power += push * (N(T(1)) - load) * between.u_a;
     if constexpr (Scheme::Smoothing::acts) {
       const N weight = scale * Kernel::shape(R);
@@ -86,16 +100,19 @@ struct PairTerm {
     }
     if constexpr (Scheme::Stress::acts) {
       const N share = (N(T(0)) - mdW) * inverse_r / (N(a.rho) * b.rho);
-      const auto drag = scheme.stress.drag(share, inverse_r * d, between.dv);
+      Vec<dim, N> drag = scheme.stress.drag(share, inverse_r * d, between.dv);
+      if constexpr (slips)
+        drag -= between.slips * (drag - dot(drag, between.normal) * between.normal);
       sum.v -= load * drag;
       if constexpr (Scheme::Wall::surfaces)
         sum.power -= N(a.shell) * load * scheme.stress.conduction(share, between.dT);
-      else
+      else if constexpr (Scheme::Wall::evolves)
         sum.power -= (N(T(1)) - load) * dot(drag, a.v);
       sum.e += dot(drag, between.rubbing) - scheme.stress.conduction(share, between.dT);
     }
-    sum.pairs += math::select(R < N(static_cast<T>(Kernel::support)), N(T(1)), N(T(0)));
-    sum.falls += between.fell;
+    const N inside = math::select(R < N(static_cast<T>(Kernel::support)), N(T(1)), N(T(0)));
+    sum.pairs += inside;
+    sum.falls += inside * between.fell;
   }
 };
 

@@ -29,7 +29,7 @@ struct EvaluateRates {
         space.near_border(a.r, border) ? sums<true>(i, a) : sums<false>(i, a);
     const bool moves = set[i] == particles::gas;
     const bool evolves = moves || Scheme::Wall::evolves;
-    const T rho = evolves ? T(2) * sum.rho + relaxation(a, sum) : T(0);
+    const T rho = evolves ? T(2) * sum.rho + (moves ? relaxation(a, sum) : T(0)) : T(0);
     write(rates.rho, i, rho, keep);
     write(rates.e, i, evolves ? sum.e : T(0), keep);
     write(rates.h, i, -a.h / (T(dim) * a.rho) * rho, keep);  // eq. (23)

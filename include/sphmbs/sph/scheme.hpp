@@ -77,8 +77,8 @@ struct RiemannSph {
   Vec<dim> acceleration{};  // body force per mass, g [m/s^2]
   /// A pressure that everything is at: forces are those of p - background, so that its share in the
   /// noise of disordered particles vanishes. Momentum is conserved as before, and instead of the
-  /// energy its sum with background times volume (exactly so with VolumeForm). The force on a body
-  /// lacks background times its area vector, which is zero for closed bodies [Pa].
+  /// energy its sum with background times volume (exactly so with VolumeForm and Integrated). The
+  /// force on a body lacks background times its area vector, which is zero for closed bodies [Pa].
   double background = 0;
   Riemann riemann{};
   Smoothing smoothing{};

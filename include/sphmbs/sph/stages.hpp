@@ -73,7 +73,7 @@ struct Advance {
             stretch(i) * fields.depth[i]};
   }
 
- private:
+  /// Ratio of lengths of the solid that a virtual particle belongs to, time + dt to time.
   SPHMBS_INLINE T stretch(std::size_t i) const {
     return static_cast<T>(boundary::stretch(motion, fields.set[i], time, time + dt));
   }
@@ -136,12 +136,11 @@ struct CommitStep {
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
     fields.h[i] = y.h;
-    if constexpr (Scheme::Wall::surfaces) {
-      if (fields.set[i] == particles::gas) return;
-      const particles::Surface<dim, T> s = advance.surface(i);
-      particles::FieldsView<dim, T>::put(fields.normal, i, s.normal);
-      fields.depth[i] = s.depth;
-    }
+    if (fields.depth == nullptr || fields.set[i] == particles::gas) return;
+    const particles::Surface<dim, T> s = advance.surface(i);
+    particles::FieldsView<dim, T>::put(fields.normal, i, s.normal);
+    fields.depth[i] = s.depth;
+    if (fields.patch != nullptr) fields.patch[i] *= advance.stretch(i);
   }
 };
 
@@ -152,20 +151,25 @@ struct Surplus {
 };
 
 /// How far a virtual particle's prescribed way from time to time + dt departs from the way at the
-/// velocity it begins with.
-template <int Dim, class T, class Motion>
+/// velocity that gas meets at its beginning, the growth of its support included.
+template <class Scheme, class T, class Motion>
 struct MotionSurplus {
-  particles::FieldsView<Dim, T> fields;
-  Motion motion;
-  double time;  // [s]
-  double dt;    // [s]
+  static constexpr int dim = Scheme::dim;
+  Advance<Scheme, T, Motion> advance;
 
   SPHMBS_INLINE Surplus operator()(std::size_t i) const {
+    const auto& fields = advance.fields;
     if (fields.set[i] == particles::gas) return {};
-    const Vec<Dim, T> r = fields.position(i);
-    const Vec<Dim, T> end = motion.position(fields.set[i], r, time, time + dt);
-    const Vec<Dim, T> v = motion.velocity(fields.set[i], r, time);
-    return {math::sqrt(norm2((end - r).template to<double>() - dt * v.template to<double>()))};
+    const Vec<dim, T> r = fields.position(i);
+    const double dt = advance.dt;
+    const Vec<dim, T> end =
+        advance.motion.position(fields.set[i], r, advance.time, advance.time + dt);
+    Vec<dim, T> seen = r;
+    if constexpr (Scheme::Wall::surfaces) seen += fields.depth[i] * fields.normal_at(i);
+    const Vec<dim, T> v = advance.motion.velocity(fields.set[i], seen, advance.time);
+    const double growth = static_cast<double>(advance.stretch(i)) - 1;
+    return {math::sqrt(norm2((end - r).template to<double>() - dt * v.template to<double>())) +
+            Scheme::Kernel::support * static_cast<double>(fields.h[i]) * math::max(growth, 0.0)};
   }
 };
 

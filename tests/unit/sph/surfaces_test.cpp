@@ -210,6 +210,32 @@ TEMPLATE_LIST_TEST_CASE("the mirror's work is the gas's gain pair by pair", "[sp
   CHECK(std::abs(fluid.exchange().wall_work() - 1e-6 * energy.value) < 1e-18 * energy.size);
 }
 
+TEMPLATE_TEST_CASE("dense gas at rest beside a wall of another density stays at rest", "[sph]",
+                   boundary::FreeSlip, boundary::NoSlip, boundary::Mirrored) {
+  auto cloud = above_floor();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.set[i] != sphmbs::particles::gas) continue;
+    cloud.rho[i] *= 4;
+    cloud.m[i] *= 4;
+  }
+  const auto check = [&](const auto& gas) {
+    const auto rates = test::rates_of(gas, strip(), cloud);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (cloud.set[i] == sphmbs::particles::gas && cloud.r[i][1] < 1.5)
+        CHECK(test::length(rates.v[i]) < 1e-6);
+  };
+  check(Gas<TestType>{});
+  check(Gas<TestType, sph::VolumeForm, sphmbs::reconstruction::Muscl<>>{});
+}
+
+TEST_CASE("virtual particles outside of the solid they are said to be in are refused", "[sph]") {
+  sphmbs::particles::Cloud<2> cloud;
+  CHECK_THROWS_WITH(
+      cloud.add_virtual({{0.05, 0.55}}, test::still_air<2>(), {.spacing = spacing}, Floor{}),
+      Catch::Contains("below its solid's surface") && Catch::Contains("outside(shape)"));
+  CHECK(cloud.size() == 0);
+}
+
 TEST_CASE("walls that need a surface are refused without one", "[sph]") {
   sphmbs::particles::Cloud<2> cloud;
   cloud.add_gas(test::cell_centres<2>(4, spacing), test::still_air<2>(), {.spacing = spacing});
