@@ -40,6 +40,31 @@ struct Zero {
   SPHMBS_INLINE void operator()(std::size_t i) const { count[i] = 0; }
 };
 
+/// Puts gas first in the lists of openings' particles, and ends them there.
+struct GasFirst {
+  const std::uint8_t* set;
+  const std::uint64_t* first;
+  std::uint32_t* list;
+  std::uint64_t* last;
+  SPHMBS_INLINE void operator()(std::size_t a) const {
+    if (!particles::is_opening(set[a])) return;
+    std::uint64_t end = first[a];
+    for (std::uint64_t k = first[a]; k < last[a]; ++k) {
+      if (set[list[k]] != particles::gas) continue;
+      const std::uint32_t other = list[end];
+      list[end++] = list[k];
+      list[k] = other;
+    }
+    last[a] = end;
+  }
+};
+
+struct EndAtNext {
+  const std::uint64_t* first;
+  std::uint64_t* last;
+  SPHMBS_INLINE void operator()(std::size_t a) const { last[a] = first[a + 1]; }
+};
+
 /// Sorts the members of a cell by id: the order in which threads placed them is forgotten.
 struct SortCell {
   const std::uint32_t* first;
@@ -99,18 +124,29 @@ class CellList {
                                          find, nullptr, first_.data(), list_.data()});
     else
       Policy::for_each(n, detail::ListNeighbours<Dim, T, W>{find, first_.data(), list_.data()});
-    if (particles.fields().sheet != nullptr)
-      shielding_.apply(particles, find.space, first_.data(), list_.data(), pairs);
+    const bool sheets = particles.fields().sheet != nullptr;
+    if (!sheets && !particles.has_openings()) return;
+    last_.resize_discarding(n);
+    if (sheets)
+      shield(particles, find.space, first_.data(), list_.data(), pairs, last_.data());
+    else
+      Policy::for_each(n, detail::EndAtNext{first_.data(), last_.data()});
+    if (particles.has_openings())
+      Policy::for_each(
+          n, detail::GasFirst{find.fields.set, first_.data(), list_.data(), last_.data()});
   }
 
   NeighbourView view() const {
-    const bool shielded = shielding_.last() != nullptr;
-    return {first_.data(), shielded ? shielding_.last() : first_.data() + 1, list_.data()};
+    const bool cut = last_.size() > 0;
+    return {first_.data(), cut ? last_.data() : first_.data() + 1, list_.data()};
   }
+
+  /// The same with all neighbours of openings' particles, gas first; `view` ends at the gas.
+  NeighbourView whole() const { return {first_.data(), first_.data() + 1, list_.data()}; }
 
   /// Memory held [bytes].
   std::size_t bytes() const {
-    return first_.bytes() + list_.bytes() + cell_first_.bytes() + shielding_.bytes();
+    return first_.bytes() + list_.bytes() + cell_first_.bytes() + last_.bytes();
   }
 
  private:
@@ -133,7 +169,7 @@ class CellList {
   execution::Field<std::uint32_t, Policy> cell_first_;
   execution::Field<std::uint64_t, Policy> first_;
   execution::Field<std::uint32_t, Policy> list_;
-  Shielding<Dim, T, Policy> shielding_;
+  execution::Field<std::uint64_t, Policy> last_;  // where lists end that do not fill their place
 };
 
 }  // namespace sphmbs::neighbours

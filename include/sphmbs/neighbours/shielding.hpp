@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include <sphmbs/execution/field.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/particles.hpp>
@@ -79,8 +77,8 @@ struct JudgePairs {
  private:
   SPHMBS_INLINE bool seen(std::size_t a, std::size_t b) const {
     const auto& fields = listed.fields;
-    const bool gas_a = fields.set[a] == particles::gas;
-    const bool gas_b = fields.set[b] == particles::gas;
+    const bool gas_a = !particles::is_virtual(fields.set[a]);
+    const bool gas_b = !particles::is_virtual(fields.set[b]);
     if (gas_a && fields.sheet[b] != particles::no_sheet) return listed.in_front(b, a);
     if (gas_b && fields.sheet[a] != particles::no_sheet) return listed.in_front(a, b);
     if (!gas_a && !gas_b && fields.set[a] != fields.set[b])
@@ -113,32 +111,19 @@ struct ClosePairs {
 }  // namespace detail
 
 /// Takes out of the lists who does not see whom past a thin body: gas on its one side and gas or
-/// layers of the other.
-template <int Dim, class T, execution::ExecutionPolicy Policy>
-class Shielding {
- public:
-  /// Judges lists that were just made: n + 1 entries of `first`, `pairs` of `list`.
-  void apply(particles::Particles<Dim, T, Policy>& particles,
-             const geometry::Periodicity<Dim, T>& space, const std::uint64_t* first,
-             std::uint32_t* list, std::uint64_t pairs) {
-    const std::size_t n = particles.size();
-    last_.resize_discarding(n);
-    const detail::ListedSheets<Dim, T> listed{particles.fields(), space, first, list};
-    execution::Field<std::uint8_t, Policy> near(n);
-    execution::Field<std::uint8_t, Policy> keep(pairs);
-    Policy::for_each(n, detail::FindPatches<Dim, T>{listed, near.data()});
-    Policy::for_each(n, detail::JudgePairs<Dim, T>{listed, near.data(), keep.data()});
-    Policy::for_each(n, detail::ClosePairs{first, keep.data(), list, last_.data()});
-  }
-
-  /// Where the list of each particle ends; null while nothing was judged.
-  const std::uint64_t* last() const { return last_.data(); }
-
-  /// Memory held [bytes].
-  std::size_t bytes() const { return last_.bytes(); }
-
- private:
-  execution::Field<std::uint64_t, Policy> last_;
-};
+/// layers of the other. Judges lists that were just made: n + 1 entries of `first`, `pairs` of
+/// `list`; writes where each list ends now.
+template <execution::ExecutionPolicy Policy, int Dim, class T>
+void shield(particles::Particles<Dim, T, Policy>& particles,
+            const geometry::Periodicity<Dim, T>& space, const std::uint64_t* first,
+            std::uint32_t* list, std::uint64_t pairs, std::uint64_t* last) {
+  const std::size_t n = particles.size();
+  const detail::ListedSheets<Dim, T> listed{particles.fields(), space, first, list};
+  execution::Field<std::uint8_t, Policy> near(n);
+  execution::Field<std::uint8_t, Policy> keep(pairs);
+  Policy::for_each(n, detail::FindPatches<Dim, T>{listed, near.data()});
+  Policy::for_each(n, detail::JudgePairs<Dim, T>{listed, near.data(), keep.data()});
+  Policy::for_each(n, detail::ClosePairs{first, keep.data(), list, last});
+}
 
 }  // namespace sphmbs::neighbours

@@ -9,24 +9,11 @@
 
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/core/math.hpp>
-#include <sphmbs/core/vec.hpp>
 #include <sphmbs/particles/fields.hpp>
+#include <sphmbs/particles/opening.hpp>
+#include <sphmbs/particles/state.hpp>
 
 namespace sphmbs::particles {
-
-/// State of the gas at a point.
-template <int Dim>
-struct State {
-  double rho;       // density [kg/m^3]
-  double p;         // pressure [Pa]
-  Vec<Dim> v = {};  // velocity [m/s]
-};
-
-/// Size of the particles of a lattice.
-struct Resolution {
-  double spacing;                 // [m]
-  double smoothing_ratio = 1.25;  // initial smoothing length / spacing, as in the paper [-]
-};
 
 /// The particles a simulation starts from, on the host, in the order they were added. Their index
 /// here is the particles' lasting `id`.
@@ -41,8 +28,9 @@ struct Cloud {
   std::vector<std::uint8_t> set;  // gas, or the number of a set of virtual particles
   std::vector<Vec<Dim>> normal;  // of the surface before a virtual particle; zero where unknown [-]
   std::vector<double> depth;     // of a virtual particle below that surface [m]
-  std::vector<std::uint8_t> sheet;  // what a virtual particle is of a thin body
-  int sets = 0;                     // sets of virtual particles so far
+  std::vector<std::uint8_t> sheet;     // what a virtual particle is of a thin body
+  int sets = 0;                        // sets of virtual particles so far
+  std::vector<Opening<Dim>> openings;  // through which gas comes in and goes out
 
   std::size_t size() const { return r.size(); }
 
@@ -50,6 +38,13 @@ struct Cloud {
     std::size_t n = 0;
     for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
     return n;
+  }
+
+  /// Mass of the gas [kg].
+  double gas_mass() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += set[i] == gas ? m[i] : 0;
+    return sum;
   }
 
   /// Whether there are thin bodies.
@@ -67,7 +62,7 @@ struct Cloud {
   /// @throws InvalidInput where virtual particles were added without their solid.
   void require_surfaces() const {
     for (std::size_t i = 0; i < size(); ++i)
-      expects(set[i] == gas || (i < normal.size() && norm2(normal[i]) > 0),
+      expects(!is_virtual(set[i]) || (i < normal.size() && norm2(normal[i]) > 0),
               "set of virtual particles", static_cast<int>(set[i]),
               "added with its solid, whose surface this wall model needs");
   }
@@ -81,10 +76,11 @@ struct Cloud {
 
   /// Adds one set of virtual particles, a wall or a body, and returns its number. They start with
   /// the gas's state, sect. 3.2.
-  /// @throws InvalidInput as `add_gas`, or if there are 255 sets already.
+  /// @throws InvalidInput as `add_gas`, or if there are 191 sets already.
   int add_virtual(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
                   const Resolution& resolution) {
-    expects(sets < 255, "sets of virtual particles", sets + 1, "at most 255");
+    constexpr int most = first_opening - 1;
+    expects(sets < most, "sets of virtual particles", sets + 1, "at most " + std::to_string(most));
     ++sets;
     add(points, state, resolution, static_cast<std::uint8_t>(sets));
     return sets;
@@ -119,6 +115,27 @@ struct Cloud {
               "about 1: the point is as far from several parts of the surface");
       normal[i] = (1 / slope) * normal[i];
     }
+    return number;
+  }
+
+  /// Adds an opening and the particles that fill its zone, and returns its number, from 0 on. They
+  /// start with the far gas's state, move with their own velocity, and take part as gas does: one
+  /// that passes the face becomes gas, and gas that passes it joins the zone. At the far end
+  /// particles vanish, and those that move away from there are followed by others one spacing
+  /// behind. The zone must be as deep as gas sees.
+  /// @throws InvalidInput as `add_gas`, for a bad opening, or if there are 32 openings already.
+  int add_opening(const Opening<Dim>& opening, const std::vector<Vec<Dim>>& points,
+                  const Resolution& resolution) {
+    opening.check();
+    constexpr int most = (256 - first_opening) / 2;
+    const int number = static_cast<int>(openings.size());
+    expects(number < most, "openings", number + 1, "at most " + std::to_string(most));
+    add(points, opening.far, resolution, opening_set(number, false));
+    openings.push_back(opening);
+    openings.back().spacing = resolution.spacing;
+    for (std::size_t i = size() - points.size(); i < size(); ++i)
+      if (openings.back().depth(r[i]) > opening.length() - resolution.spacing)
+        set[i] = opening_set(number, true);
     return number;
   }
 
@@ -167,12 +184,8 @@ struct Cloud {
  private:
   void add(const std::vector<Vec<Dim>>& points, const State<Dim>& state,
            const Resolution& resolution, std::uint8_t number) {
-    expects(std::isfinite(state.rho) && state.rho > 0, "density", state.rho, "positive [kg/m^3]");
-    expects(std::isfinite(state.p) && state.p > 0, "pressure", state.p, "positive [Pa]");
-    expects(std::isfinite(resolution.spacing) && resolution.spacing > 0, "spacing",
-            resolution.spacing, "positive [m]");
-    expects(resolution.smoothing_ratio >= 0.8 && resolution.smoothing_ratio <= 4,
-            "smoothing length / spacing", resolution.smoothing_ratio, "between 0.8 and 4");
+    state.check();
+    resolution.check();
     const std::size_t n = size() + points.size();
     r.insert(r.end(), points.begin(), points.end());
     v.resize(n, state.v);

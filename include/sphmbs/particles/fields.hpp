@@ -15,8 +15,19 @@ inline constexpr std::uint8_t no_sheet = 0;
 inline constexpr std::uint8_t sheet_layer = 1;
 inline constexpr std::uint8_t sheet_patch = 2;
 
-/// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ...
+/// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ..., and each
+/// opening the next two from `first_opening` on: its particles, and those at its far end that no
+/// other follows yet.
 inline constexpr std::uint8_t gas = 0;
+inline constexpr int first_opening = 192;
+
+SPHMBS_INLINE constexpr bool is_opening(std::uint8_t set) { return set >= first_opening; }
+SPHMBS_INLINE constexpr bool is_virtual(std::uint8_t set) { return set != gas && !is_opening(set); }
+SPHMBS_INLINE constexpr int opening_of(std::uint8_t set) { return (set - first_opening) / 2; }
+SPHMBS_INLINE constexpr bool is_last(std::uint8_t set) { return is_opening(set) && set % 2 == 1; }
+SPHMBS_INLINE constexpr std::uint8_t opening_set(int opening, bool last) {
+  return static_cast<std::uint8_t>(first_opening + 2 * opening + (last ? 1 : 0));
+}
 
 /// The state at the beginning of the step, as pointers that loop bodies see. Planar gas is per
 /// metre of depth: m in kg/m; on a line per square metre of section: kg/m^2.
@@ -33,7 +44,7 @@ struct FieldsView {
   T* patch;        // width of the patch of a thin body that a virtual particle is [m]; null if none
   std::uint8_t* sheet;  // what a virtual particle is of a thin body; null if there is none
   std::uint32_t* id;    // place in the initial cloud; never changes
-  std::uint8_t* set;    // gas, or which set of virtual particles
+  std::uint8_t* set;    // gas, which set of virtual particles, or which opening
 
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }
@@ -65,6 +76,9 @@ struct RatesView {
   T* h;                  // [m/s], eq. (23)
   std::uint16_t* pairs;  // neighbours inside the support at the last evaluation
   std::uint16_t* falls;  // of them those whose reconstruction was refused
+  // What the gas does to particles of openings, by their mass, at the last stage; null if none are.
+  T* push[Dim];  // force [m/s^2]
+  T* heating;    // power, less the work of that force [W/kg]
 };
 
 }  // namespace sphmbs::particles

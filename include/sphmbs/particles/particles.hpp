@@ -25,6 +25,16 @@ struct Gather {
   SPHMBS_INLINE void operator()(std::size_t i) const { to[i] = from[order[i]]; }
 };
 
+template <class T, int width>
+struct GatherRows {
+  const T* from;
+  T* to;
+  const std::uint32_t* order;
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    for (std::size_t k = 0; k < width; ++k) to[i * width + k] = from[order[i] * width + k];
+  }
+};
+
 }  // namespace detail
 
 /// Owns the fields of all particles, their rates, and the records of the current stage, in the
@@ -38,7 +48,8 @@ class Particles {
   /// @param energy  specific internal energy of a density and a pressure [J/kg]
   /// @throws InvalidInput for an empty cloud or more than 2^32 - 1 particles.
   template <class Energy>
-  Particles(const Cloud<Dim>& cloud, Energy energy) : size_(cloud.size()) {
+  Particles(const Cloud<Dim>& cloud, Energy energy)
+      : size_(cloud.size()), has_openings_(!cloud.openings.empty()) {
     expects(size_ > 0 && size_ < 0xffffffffu, "particles", size_, "between 1 and 2^32 - 1");
     for (const std::size_t entries : {cloud.v.size(), cloud.rho.size(), cloud.p.size(),
                                       cloud.h.size(), cloud.m.size(), cloud.set.size()})
@@ -76,6 +87,9 @@ class Particles {
       patch_ = Field<T>(padded());
       put(patch_, [&](std::size_t i) { return std::pow(cloud.m[i] / cloud.rho[i], 1.0 / Dim); });
     }
+    if (has_openings_)
+      for (int k = 0; k <= Dim; ++k)
+        (k < Dim ? push_[k] : heating_) = Field<T>(std::vector<T>(padded()));
     std::vector<std::uint32_t> id(n);
     std::iota(id.begin(), id.end(), 0u);
     id_ = Field<std::uint32_t>(id);
@@ -86,6 +100,9 @@ class Particles {
   }
 
   std::size_t size() const { return size_; }
+
+  /// Whether some are those of openings.
+  bool has_openings() const { return has_openings_; }
 
   FieldsView<Dim, T> fields() {
     FieldsView<Dim, T> f{.r = {},
@@ -115,10 +132,13 @@ class Particles {
                         .e = e_rate_.data(),
                         .h = h_rate_.data(),
                         .pairs = pairs_.data(),
-                        .falls = falls_.data()};
+                        .falls = falls_.data(),
+                        .push = {},
+                        .heating = heating_.data()};
     for (int k = 0; k < Dim; ++k) {
       f.r[k] = r_rate_[k].data();
       f.v[k] = v_rate_[k].data();
+      f.push[k] = push_[k].data();
     }
     return f;
   }
@@ -132,14 +152,33 @@ class Particles {
       Policy::for_each(size_, detail::Gather<T>{f->data(), scratch_.data(), order});
       f->swap(scratch_);
     }
-    for (Field<T>* f : surfaces()) {
+    for (Field<T>* f : optional()) {
       if (f->size() == 0) continue;
       Policy::for_each(size_, detail::Gather<T>{f->data(), scratch_.data(), order});
       f->swap(scratch_);
     }
-    permute_small(id_, order);
-    permute_small(set_, order);
-    if (sheet_.size() > 0) permute_small(sheet_, order);
+    gather_anew(id_, order, size_);
+    gather_anew(set_, order, size_);
+    gather_anew(sheet_, order, size_);
+  }
+
+  /// Replaces the particles by n others: the new particle i is a copy of the old order[i], its
+  /// record included.
+  void select(const std::uint32_t* order, std::size_t n) {
+    size_ = n;
+    scratch_ = {};
+    for (Field<T>* f : numbers()) gather_anew(*f, order, padded());
+    for (Field<T>* f : optional()) gather_anew(*f, order, padded());
+    scratch_ = Field<T>(padded());
+    gather_anew(id_, order, n);
+    gather_anew(set_, order, n);
+    gather_anew(sheet_, order, n);
+    gather_anew(pairs_, order, n);
+    gather_anew(falls_, order, n);
+    Field<T> records(n * record_size<Dim>);
+    Policy::for_each(
+        n, detail::GatherRows<T, record_size<Dim>>{records_.data(), records.data(), order});
+    records_ = std::move(records);
   }
 
   /// Memory held [bytes].
@@ -147,7 +186,7 @@ class Particles {
     std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes() +
                     falls_.bytes() + sheet_.bytes();
     for (Field<T>* f : numbers()) b += f->bytes();
-    for (Field<T>* f : surfaces()) b += f->bytes();
+    for (Field<T>* f : optional()) b += f->bytes();
     return b;
   }
 
@@ -162,25 +201,30 @@ class Particles {
     return all;
   }
 
-  std::vector<Field<T>*> surfaces() {
-    std::vector<Field<T>*> all{&depth_, &patch_};
-    for (int k = 0; k < Dim; ++k) all.push_back(&normal_[k]);
+  std::vector<Field<T>*> optional() {
+    std::vector<Field<T>*> all{&depth_, &patch_, &heating_};
+    for (int k = 0; k < Dim; ++k)
+      for (Field<T>* f : {&normal_[k], &push_[k]}) all.push_back(f);
     return all;
   }
 
+  // Into new memory for `capacity` entries.
   template <class U>
-  void permute_small(Field<U>& field, const std::uint32_t* order) {
-    Field<U> sorted(size_);
-    Policy::for_each(size_, detail::Gather<U>{field.data(), sorted.data(), order});
-    field = std::move(sorted);
+  void gather_anew(Field<U>& field, const std::uint32_t* order, std::size_t capacity) {
+    if (field.size() == 0) return;
+    Field<U> to(capacity);
+    Policy::for_each(size_, detail::Gather<U>{field.data(), to.data(), order});
+    field = std::move(to);
   }
 
   std::size_t size_;
+  bool has_openings_;
   Field<T> r_[Dim], v_[Dim], rho_, e_, h_, m_;
   Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
   Field<std::uint32_t> id_;
   Field<std::uint8_t> set_, sheet_;
   Field<T> normal_[Dim], depth_, patch_;
+  Field<T> push_[Dim], heating_;
   Field<std::uint16_t> pairs_, falls_;
   Field<T> records_;
   Field<T> scratch_;

@@ -48,6 +48,9 @@ std::string describe_culprit(particles::Particles<Dim, T, Policy>& particles, co
        << " s): ";
   if (set == particles::gas)
     text << "gas particle #" << id;
+  else if (particles::is_opening(static_cast<std::uint8_t>(set)))
+    text << "particle #" << id << " of opening "
+         << particles::opening_of(static_cast<std::uint8_t>(set));
   else
     text << "virtual particle #" << id << " of set " << set;
   text << " at ";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
@@ -11,6 +12,7 @@
 #include <sphmbs/sph/exchange.hpp>
 #include <sphmbs/sph/interpolate.hpp>
 #include <sphmbs/sph/list_schedule.hpp>
+#include <sphmbs/sph/openings.hpp>
 #include <sphmbs/sph/rates.hpp>
 #include <sphmbs/sph/slopes.hpp>
 #include <sphmbs/sph/stages.hpp>
@@ -47,18 +49,16 @@ class Fluid {
         space_(domain.template periodicity<T>()),
         particles_(wrapped(cloud, domain),
                    [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
-        gas_count_(cloud.gas_count()) {
+        openings_(scheme, domain, cloud),
+        gas_count_(cloud.gas_count()),
+        gas_mass_(cloud.gas_mass()) {
     static_assert(boundary::Motion<Motion, Vec<dim, T>>);
     static_assert(neighbours::NeighbourSearch<Search, dim, T, Policy>);
     static_assert(time::ExplicitSystem<Fluid>);
     scheme.check();
     domain.check();
     if constexpr (Scheme::Wall::surfaces) cloud.require_surfaces();
-    if constexpr (Scheme::vicinity)
-      vicinities_ =
-          execution::Field<T, Policy>(std::vector<T>(size() * particles::slopes_size<dim>));
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      gas_mass_ += cloud.set[i] == particles::gas ? cloud.m[i] : 0;
+    forget_vicinities();
     const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
     neighbours::check_reach(domain, {Scheme::Kernel::support, 0, h_max});
   }
@@ -69,7 +69,7 @@ class Fluid {
   ///         positive, or particles could move by more than they reach.
   void stage(double scale, double dt) {
     write_records(scale, dt);
-    const double surplus = motion_surplus(dt);
+    const double surplus = motion_surplus<Policy>(advance(0, dt), size());
     lists_.staged(dt, surplus);
     if (!lists_.outdated(dt)) return;
     rebuild_lists(dt);
@@ -99,6 +99,9 @@ class Fluid {
                                    .rates = particles_.rates(),
                                    .keep = static_cast<T>(keep),
                                    .border = border});
+      if (openings_.any())
+        openings_.rates(space_, {search_.whole(), particles_.records(), nullptr}, particles_,
+                        static_cast<T>(keep), border);
     }
     const auto timer = statistics_.time(Phase::survey);
     weight_ = keep * weight_ + 1;
@@ -115,7 +118,7 @@ class Fluid {
 
   /// y = y + scale k, and the time goes on by dt.
   void commit(double scale, double dt) {
-    const double surplus = motion_surplus(dt);
+    const double surplus = motion_surplus<Policy>(advance(0, dt), size());
     const auto timer = statistics_.time(Phase::update);
     Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
     time_ += dt;
@@ -123,13 +126,17 @@ class Fluid {
     exchange_.committed(scale);
     ++statistics_.steps;
     lists_.stepped(dt, surplus);
+    if (openings_.any() && (openings_.moved(survey_.fastest_move() * dt) || lists_.outdated(0)))
+      let_pass();
   }
 
   /// Time of the state y [s].
   double time() const { return time_; }
   std::size_t size() const { return particles_.size(); }
   std::size_t gas_count() const { return gas_count_; }
-  std::size_t virtual_count() const { return size() - gas_count_; }
+  /// Particles in the zones of openings.
+  std::size_t opening_count() const { return openings_.particle_count(); }
+  std::size_t virtual_count() const { return size() - gas_count_ - opening_count(); }
   const Scheme& scheme() const { return scheme_; }
   const geometry::Domain<dim>& domain() const { return domain_; }
 
@@ -140,6 +147,11 @@ class Fluid {
   /// What the gas has received from walls, bodies and the body force.
   const Exchange<dim>& exchange() const { return exchange_; }
 
+  /// What has passed each opening, in the order they were added. With what the exchange says it
+  /// balances the gas's own sums. Particles pass when neighbour lists are made or they have gone a
+  /// quarter of their smoothing length, not at once.
+  std::span<const Traffic<dim>> traffic() const { return openings_.traffic(); }
+
   /// Sums over the state y.
   Totals<dim> totals() {
     return execution::reduce<Policy>(size(), Totals<dim>{},
@@ -147,9 +159,10 @@ class Fluid {
   }
 
   /// Force of the gas on a set of virtual particles at the last evaluation of the rates [N].
-  /// @throws InvalidInput unless the number is that of a set of virtual particles, 1 to 255.
+  /// @throws InvalidInput unless the number is that of a set of virtual particles, 1 to 191.
   Vec<dim> force_on(int set) {
-    expects(set >= 1 && set <= 255, "set of virtual particles", set, "1 to 255");
+    expects(set >= 1 && set < particles::first_opening, "set of virtual particles", set,
+            "1 to 191");
     return execution::reduce<Policy>(
                size(), Force<dim>{},
                ForceOnParticle<dim, T>{particles_.fields(), particles_.rates(),
@@ -184,6 +197,22 @@ class Fluid {
     return cloud;
   }
 
+  // Those that no loop writes, of virtual particles without a state, are zero.
+  void forget_vicinities() {
+    if constexpr (Scheme::vicinity)
+      vicinities_ =
+          execution::Field<T, Policy>(std::vector<T>(size() * particles::slopes_size<dim>));
+  }
+
+  void let_pass() {
+    const auto timer = statistics_.time(Phase::neighbours);
+    const Traffic<dim> passed = openings_.pass(scheme_.eos, particles_);
+    gas_count_ += passed.in.particles - passed.out.particles;
+    gas_mass_ += passed.in.mass - passed.out.mass;
+    forget_vicinities();
+    lists_.forget();
+  }
+
   Advance<Scheme, T, Motion> advance(double scale, double dt) {
     return {particles_.fields(), particles_.rates(), motion_, static_cast<T>(scale), time_, dt};
   }
@@ -196,16 +225,6 @@ class Fluid {
                                    vicinities_.data(), culprit_.data()});
     const std::uint32_t culprit = culprit_.download()[0];
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
-  }
-
-  /// How much further virtual particles move in a time than their velocity at its beginning says.
-  double motion_surplus([[maybe_unused]] double dt) {
-    if constexpr (std::is_same_v<Motion, boundary::Fixed>)
-      return 0;
-    else
-      return execution::reduce<Policy>(size(), Surplus{},
-                                       MotionSurplus<Scheme, T, Motion>{advance(0, dt)})
-          .length;
   }
 
   void rebuild_lists(double dt) {
@@ -236,7 +255,9 @@ class Fluid {
   Motion motion_;
   geometry::Periodicity<dim, T> space_;
   particles::Particles<dim, T, Policy> particles_;
+  Openings<Scheme, T, Policy> openings_;
   std::size_t gas_count_;
+  double gas_mass_;  // [kg]
   Search search_;
   ListSchedule lists_;
   Survey<dim> survey_;
@@ -246,7 +267,6 @@ class Fluid {
   double time_ = 0;
   double last_dt_ = 0;
   double weight_ = 0;  // of all evaluations in the rates
-  double gas_mass_ = 0;
   Exchange<dim> exchange_;
 };
 

@@ -20,6 +20,9 @@ class ListSchedule {
            drift_ + surplus_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_) > reach_.skin;
   }
 
+  /// Particles are no longer the same.
+  void forget() { built_ = false; }
+
   /// Rates were evaluated: pairs close in, and reaches grow, by `speed` together at most [m/s].
   void moving(double speed) { speed_ = speed; }
 

@@ -27,6 +27,14 @@ struct EvaluateRates {
     const auto a = particles::load_record<dim>(from.records, i);
     const PairSums<dim, T> sum =
         space.near_border(a.r, border) ? sums<true>(i, a) : sums<false>(i, a);
+    rates.pairs[i] = count(sum.pairs);
+    rates.falls[i] = count(sum.falls);
+    if (particles::is_opening(set[i])) {
+      // It sees gas alone; its own rates are those of its opening.
+      for (int k = 0; k < dim; ++k) rates.push[k][i] = sum.v[k];
+      rates.heating[i] = sum.e;
+      return;
+    }
     const bool moves = set[i] == particles::gas;
     const bool evolves = moves || Scheme::Wall::evolves;
     const T rho = evolves ? T(2) * sum.rho + (moves ? relaxation(a, sum) : T(0)) : T(0);
@@ -43,8 +51,6 @@ struct EvaluateRates {
         rates.r[k][i] = k == 0 ? sum.power : T(0);
       }
     }
-    rates.pairs[i] = count(sum.pairs);
-    rates.falls[i] = count(sum.falls);
   }
 
  private:

@@ -90,7 +90,7 @@ struct EvaluateSlopes {
   T border;  // how far particles see across periodic borders [m]
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
-    if (!Scheme::Wall::evolves && set[i] != particles::gas) return;
+    if (!Scheme::Wall::evolves && particles::is_virtual(set[i])) return;
     const auto a = particles::load_record<dim>(from.records, i);
     const SlopeSums<dim, T> sum =
         space.near_border(a.r, border) ? sums<true>(i, a) : sums<false>(i, a);

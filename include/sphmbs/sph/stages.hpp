@@ -5,6 +5,7 @@
 
 #include <sphmbs/boundary/motion.hpp>
 #include <sphmbs/core/atomic.hpp>
+#include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/record.hpp>
@@ -23,9 +24,9 @@ struct Stepped {
   T h;
 };
 
-/// y + scale k for gas; for virtual particles the prescribed motion to time + dt. Those that know
-/// their surface have its velocity; those that carry no state keep their mass, so that their volume
-/// follows the solid's.
+/// y + scale k for gas; particles of openings alone move, see EvaluateOpening; for virtual
+/// particles the prescribed motion to time + dt. Those that know their surface have its velocity;
+/// those that carry no state keep their mass, so that their volume follows the solid's.
 template <class Scheme, class T, class Motion>
 struct Advance {
   static constexpr int Dim = Scheme::dim;
@@ -39,7 +40,7 @@ struct Advance {
   SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
     Stepped<Dim, T> y{fields.position(i), fields.velocity(i), fields.rho[i], fields.e[i],
                       fields.h[i]};
-    const bool moves = fields.set[i] == particles::gas;
+    const bool moves = !particles::is_virtual(fields.set[i]);
     if (scale != T(0)) {
       y.rho += scale * rates.rho[i];
       y.e += scale * rates.e[i];
@@ -106,9 +107,9 @@ struct WriteRecords {
          .c = c,
          .h = y.h,
          .m = advance.fields.m[i],
-         .shell = advance.fields.set[i] == particles::gas ? T(0) : T(1)});
+         .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0)});
     if constexpr (Scheme::Wall::surfaces)
-      if (advance.fields.set[i] != particles::gas)
+      if (particles::is_virtual(advance.fields.set[i]))
         particles::store_surface<dim, T>(vicinities, i, advance.surface(i));
     // Written so that a NaN, which compares false, is caught.
     bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
@@ -136,7 +137,7 @@ struct CommitStep {
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
     fields.h[i] = y.h;
-    if (fields.depth == nullptr || fields.set[i] == particles::gas) return;
+    if (fields.depth == nullptr || !particles::is_virtual(fields.set[i])) return;
     const particles::Surface<dim, T> s = advance.surface(i);
     particles::FieldsView<dim, T>::put(fields.normal, i, s.normal);
     fields.depth[i] = s.depth;
@@ -159,7 +160,7 @@ struct MotionSurplus {
 
   SPHMBS_INLINE Surplus operator()(std::size_t i) const {
     const auto& fields = advance.fields;
-    if (fields.set[i] == particles::gas) return {};
+    if (!particles::is_virtual(fields.set[i])) return {};
     const Vec<dim, T> r = fields.position(i);
     const double dt = advance.dt;
     const Vec<dim, T> end =
@@ -172,5 +173,16 @@ struct MotionSurplus {
             Scheme::Kernel::support * static_cast<double>(fields.h[i]) * math::max(growth, 0.0)};
   }
 };
+
+/// How much further virtual particles move in the time of an `advance` than their velocity at its
+/// beginning says [m].
+template <execution::ExecutionPolicy Policy, class Scheme, class T, class Motion>
+double motion_surplus(const Advance<Scheme, T, Motion>& advance, std::size_t n) {
+  if constexpr (std::is_same_v<Motion, boundary::Fixed>)
+    return 0;
+  else
+    return execution::reduce<Policy>(n, Surplus{}, MotionSurplus<Scheme, T, Motion>{advance})
+        .length;
+}
 
 }  // namespace sphmbs::sph

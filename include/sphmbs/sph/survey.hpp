@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -29,8 +30,8 @@ struct Survey {
   double h_rate = 0;         // largest rate of change of h [m/s]
   std::uint64_t pairs = 0;   // ordered pairs inside the support
   std::uint64_t falls = 0;   // of them those whose reconstruction was refused
-  Vec<Dim> wall_force = {};  // of the gas on all virtual particles [N]
-  double wall_power = 0;     // of the gas on virtual particles, sum f.v [W]
+  Vec<Dim> wall_force = {};  // of the gas on all virtual particles and openings [N]
+  double wall_power = 0;     // of the gas on virtual particles and openings, sum f.v [W]
   double layer_power = 0;    // of virtual particles on each other, see RatesView [W]
   Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
   Limit courant;             // h / (c + h |div v|)
@@ -56,6 +57,12 @@ struct Survey {
 
   /// No two particles approach each other faster than this [m/s].
   double approach() const { return std::sqrt(norm2(fastest - slowest)); }
+  /// No particle moves faster than this [m/s].
+  double fastest_move() const {
+    double v2 = 0;
+    for (int k = 0; k < Dim; ++k) v2 += std::max(slowest[k] * slowest[k], fastest[k] * fastest[k]);
+    return std::sqrt(v2);
+  }
 };
 
 /// What a particle contributes to the survey.
@@ -73,9 +80,11 @@ struct SurveyParticle {
     const std::uint32_t id = fields.id[i];
     const double h = static_cast<double>(s.h);
     const double rho = static_cast<double>(s.rho);
-    const bool moves = fields.set[i] == particles::gas;
-    const Vec<dim> drift = moves ? share * in_double(rates.r, i) : s.v.template to<double>();
-    const Vec<dim> v = in_double(rates.v, i);
+    const bool is_gas = fields.set[i] == particles::gas;
+    const bool opens = particles::is_opening(fields.set[i]);
+    const Vec<dim> drift =
+        is_gas || opens ? share * in_double(rates.r, i) : s.v.template to<double>();
+    const Vec<dim> v = in_double(opens ? rates.push : rates.v, i);
     Survey<dim> found;
     found.slowest = found.fastest = drift;
     found.h_rate = share * math::abs(static_cast<double>(rates.h[i]));
@@ -84,15 +93,15 @@ struct SurveyParticle {
     const double divergence = math::abs(static_cast<double>(rates.rho[i])) / rho;
     found.courant = {h / (static_cast<double>(s.c) + h * divergence), id};
     const double m = static_cast<double>(s.m);
-    if (moves) {
+    if (is_gas) {
       found.momentum = m * s.v.template to<double>();
       found.acceleration = {math::sqrt(h / (math::sqrt(norm2(v)) + 1e-300)), id};
       if constexpr (decltype(scheme.stress)::acts)
         found.diffusion = {h * h / (2 * scheme.stress.diffusivity(scheme.eos, rho)), id};
     } else {
       found.wall_force = m * v;
-      found.wall_power = m * dot(v, drift);
-      found.layer_power = m * static_cast<double>(rates.r[0][i]);
+      found.wall_power = m * dot(v, s.v.template to<double>());
+      found.layer_power = m * static_cast<double>(opens ? rates.heating[i] : rates.r[0][i]);
     }
     return found;
   }

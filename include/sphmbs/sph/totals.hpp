@@ -36,7 +36,8 @@ struct TotalsOfParticle {
   SPHMBS_INLINE Totals<Dim> operator()(std::size_t i) const {
     const double m = static_cast<double>(fields.m[i]);
     const double e = static_cast<double>(fields.e[i]);
-    if (fields.set[i] != particles::gas) return {.virtual_internal = m * e};
+    if (particles::is_opening(fields.set[i])) return {};
+    if (particles::is_virtual(fields.set[i])) return {.virtual_internal = m * e};
     const Vec<Dim> v = fields.velocity(i).template to<double>();
     return {.mass = m,
             .volume = m / static_cast<double>(fields.rho[i]),

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// A circular cylinder across a stream, whose wake sheds vortices in turn from its two sides. The
+// stream comes in and goes out by openings; along y the cylinder repeats itself.
+#include <sphmbs/sphmbs.hpp>
+
+#include "reference/cylinder_wake_curves.hpp"
+#include "support/backends.hpp"
+#include "support/gas_session.hpp"
+#include "support/guarded_main.hpp"
+#include "support/schemes.hpp"
+
+using namespace sphmbs;
+
+/// Lengths are in diameters of the cylinder and speeds in that of the stream, by D = 1 m, U = 1
+/// m/s.
+struct Wake {
+  double reynolds = 100;
+  double mach = 0.2;
+  double upstream = 8;     // from the inlet to the cylinder [m]
+  double downstream = 20;  // from the cylinder to the outlet [m]
+  double width = 20;       // from one cylinder to the next [m]
+};
+
+template <class Gas, class Policy>
+void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy policy) {
+  const double dx = settings.spacing;
+  for (const double length : {wake.upstream, wake.downstream, wake.width})
+    examples::require(dx <= 0.25 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
+                      "--spacing", dx, "a whole fraction of all lengths, and at most 0.25 m");
+  examples::require_memory((wake.upstream + wake.downstream) * wake.width / (dx * dx), dx);
+
+  // Where: a stretch of the stream between two openings, one support deep.
+  const double depth = 4 * dx;
+  const geometry::Box<2> stretch{.lower = {-wake.upstream, -wake.width / 2},
+                                 .upper = {wake.downstream, wake.width / 2}};
+  const geometry::Domain<2> domain{
+      .box = {stretch.lower - Vec<2>{depth, 0}, stretch.upper + Vec<2>{depth, 0}},
+      .periodic = {false, true}};
+  const geometry::Box<2> inlet{.lower = domain.box.lower,
+                               .upper = {stretch.lower[0], stretch.upper[1]}};
+  const geometry::Box<2> outlet{.lower = {stretch.upper[0], stretch.lower[1]},
+                                .upper = domain.box.upper};
+  const geometry::Ball<2> cylinder{.centre = {0, 0}, .radius = 0.5};
+  const geometry::Lattice<2> lattice{.spacing = dx, .origin = {dx / 2, dx / 2}};
+
+  // What: an ideal gas whose speed of sound and viscosity follow from the two numbers. A push to
+  // the side behind the cylinder spares the long time in which the wake loses its symmetry.
+  const double c = 1 / wake.mach;
+  const particles::State<2> stream{.rho = 1, .p = c * c / 1.4, .v = {1, 0}};
+  particles::Cloud<2> cloud;
+  cloud.add_gas(lattice.points(stretch - cylinder, domain), stream, {dx});
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.v[i][1] += 0.5 * std::exp(-norm2(cloud.r[i] - Vec<2>{1.5, 0}));
+  const int surface =
+      cloud.add_virtual(lattice.inner_points(cylinder, domain), stream, {dx}, cylinder);
+  const auto add_opening = [&](const geometry::Box<2>& zone, int side) {
+    cloud.add_opening({.lower = zone.lower,
+                       .upper = zone.upper,
+                       .axis = 0,
+                       .side = side,
+                       .far = stream,
+                       .distance = wake.upstream + wake.downstream},
+                      lattice.points(zone, domain), {dx});
+  };
+  add_opening(inlet, 1);
+  add_opening(outlet, -1);
+
+  Gas gas{.eos = {.gamma = 1.4}, .stress = {.viscosity = 1 / wake.reynolds}};
+  if constexpr (Gas::Wall::surfaces) gas.background = stream.p;
+  sph::Fluid<Gas, Policy> fluid(gas, domain, std::move(cloud), {}, policy);
+
+  examples::Session session(settings, "cylinder_wake", "wake of a circular cylinder", fluid);
+  session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
+  session.note("stream", "Reynolds number " + examples::format_exact(wake.reynolds) +
+                             ", Mach number " + examples::format_exact(wake.mach) + ", cylinders " +
+                             examples::format_exact(wake.width) + " D apart");
+  session.record("drag_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[0]; });
+  session.record("lift_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[1]; });
+  session.record("particles_in", "-",
+                 [&] { return static_cast<double>(fluid.traffic()[0].in.particles); });
+  session.record("particles_out", "-",
+                 [&] { return static_cast<double>(fluid.traffic()[1].out.particles); });
+  session.run(time::PredictorCorrector{}, std::max(400, static_cast<int>(20 * settings.until)), 4);
+  examples::draw_vorticity(session);
+  examples::compare_with_literature(session);
+  session.finish();
+}
+
+int main(int argc, char** argv) {
+  examples::CommandLine command_line({.name = "cylinder_wake",
+                                      .title = "wake of a circular cylinder in a stream",
+                                      .backends = examples::backends(),
+                                      .defaults = {.spacing = 0.125, .until = 80, .cfl = 0.4}});
+  std::string scheme = "best";
+  Wake wake;
+  examples::add_scheme(command_line, scheme);
+  command_line.add_number("--reynolds", wake.reynolds, {.above = 0.0, .at_most = 200.0}, "",
+                          "speed times diameter by kinematic viscosity");
+  command_line.add_number("--mach", wake.mach, {.at_least = 0.05, .at_most = 0.5}, "",
+                          "speed by that of sound");
+  command_line.add_number("--width", wake.width, {.at_least = 4.0}, "m",
+                          "from one cylinder to the next");
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      if (scheme == "paper")
+        cylinder_wake<sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas,
+                                      sph::Newtonian>>(s, wake, policy);
+      else
+        cylinder_wake<sph::SmoothScheme<2, sph::Newtonian, boundary::NoSlip>>(s, wake, policy);
+    });
+  });
+}
