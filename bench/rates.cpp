@@ -51,10 +51,9 @@ void add(const std::string& equations, const Gas& gas) {
   add_type(float{}, "float");
 }
 
-/// One choice at a time: what it costs against the paper's scheme, in plane gas.
-template <class Riemann, class... Policies>
-void add_choice(const std::string& name) {
-  using Gas = sph::RiemannSph<kernels::QuinticSpline<2>, Riemann, eos::IdealGas, Policies...>;
+/// What a scheme costs in plane gas.
+template <class Gas>
+void add_scheme(const std::string& name) {
   bench::for_policies([&]<class Policy>(Policy, const std::string& policy, int threads) {
     bench::add("choice/" + name + "/" + policy, threads, [](benchmark::State& state) {
       evaluate<Gas, double, Policy>(state, Gas{}, 100'000);
@@ -62,10 +61,16 @@ void add_choice(const std::string& name) {
   });
 }
 
+/// What a choice costs against the paper's scheme.
+template <class Riemann, class... Policies>
+void add_choice(const std::string& name) {
+  add_scheme<sph::RiemannSph<kernels::QuinticSpline<2>, Riemann, eos::IdealGas, Policies...>>(name);
+}
+
 void add_choices() {
   using namespace reconstruction;
   using riemann::Acoustic;
-  add_choice<Acoustic>("paper");
+  add_scheme<sph::PaperScheme<2>>("paper");
   add_choice<riemann::LimitedAcoustic>("limited_acoustic");
   add_choice<riemann::Hllc>("hllc");
   add_choice<riemann::Exact>("exact");
@@ -78,9 +83,8 @@ void add_choices() {
   add_choice<Acoustic, sph::Shifting>("shifting");
   add_choice<Acoustic, boundary::Mirrored>("mirrored");
   add_choice<Acoustic, boundary::FreeSlip>("free_slip");
-  add_choice<Acoustic, Muscl<>, sph::VolumeForm, sph::Shifting, boundary::FreeSlip>("smooth");
-  add_choice<riemann::Hllc, Muscl<>, sph::VolumeForm, sph::Relaxed, sph::NoXsph,
-             boundary::FreeSlip>("shock");
+  add_scheme<sph::SmoothScheme<2>>("smooth");
+  add_scheme<sph::ShockScheme<2>>("shock");
 }
 
 [[maybe_unused]] const bool registered = [] {

@@ -55,10 +55,8 @@ int main(int argc, char** argv) {
   examples::add_scheme(command_line, scheme);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
     examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (scheme == "paper")
-        sealed_cavity<sph::PaperScheme<2>>(s, policy);
-      else
-        sealed_cavity<sph::SmoothScheme<2>>(s, policy);
+      examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
+          scheme, [&]<class Gas>() { sealed_cavity<Gas>(s, policy); });
     });
   });
 }

@@ -69,13 +69,13 @@ int main(int argc, char** argv) {
        .defaults = {.spacing = dim == 1 ? 0.5 / 356 : 0.5 / 128, .until = 0.2, .cfl = 0.4}});
   Choices choices;
   examples::add_scheme(command_line, choices.scheme);
-  std::vector<std::string> solvers = SelectedRiemann::names();
-  solvers.insert(solvers.begin(), "auto");
-  command_line.add_choice("--riemann", choices.riemann, solvers,
+  const auto or_auto = [](std::vector<std::string> names) {
+    names.insert(names.begin(), "auto");
+    return names;
+  };
+  command_line.add_choice("--riemann", choices.riemann, or_auto(SelectedRiemann::names()),
                           "Riemann solver; auto: acoustic in the paper's scheme, hllc in the best");
-  std::vector<std::string> limiters = SelectedLimiter::names();
-  limiters.insert(limiters.begin(), "auto");
-  command_line.add_choice("--limiter", choices.limiter, limiters,
+  command_line.add_choice("--limiter", choices.limiter, or_auto(SelectedLimiter::names()),
                           "limiter of the slopes of --scheme best; auto: van_leer");
   command_line.add_flag("--no-xsph", choices.no_xsph,
                         "move particles with their own velocities, as --scheme best does");
@@ -86,12 +86,11 @@ int main(int argc, char** argv) {
     examples::require(!best || !choices.no_xsph, "--no-xsph", "with --scheme best",
                       "left out: that scheme has no XSPH");
     examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (best)
-        shock_tube<Best>(s, choices, policy);
-      else if (choices.no_xsph)
+      if (choices.no_xsph)
         shock_tube<Scheme<sph::NoXsph>>(s, choices, policy);
       else
-        shock_tube<Scheme<>>(s, choices, policy);
+        examples::with_scheme<Scheme<>, Best>(
+            choices.scheme, [&]<class Gas>() { shock_tube<Gas>(s, choices, policy); });
     });
   });
 }

@@ -16,6 +16,15 @@ inline void add_scheme(CommandLine& command_line, std::string& scheme) {
                           "the paper's equations, or the library's best for this case");
 }
 
+/// Calls run.operator()<Gas>() with the scheme that --scheme names.
+template <class Paper, class Best, class Run>
+void with_scheme(const std::string& scheme, Run&& run) {
+  if (scheme == "paper")
+    run.template operator()<Paper>();
+  else
+    run.template operator()<Best>();
+}
+
 /// The choices of a scheme in words, for banners.
 template <class Gas>
 std::string describe() {

@@ -13,15 +13,17 @@
 
 namespace sphmbs::examples {
 
+/// Where a name stands in a list.
+inline int place_of(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 /// A Riemann solver chosen when the program starts, so that one program has them all.
 struct SelectedRiemann {
   int which = 0;
 
   static std::vector<std::string> names() { return {"acoustic", "limited", "hllc", "exact"}; }
-  static SelectedRiemann of(const std::string& name) {
-    const auto all = names();
-    return {static_cast<int>(std::find(all.begin(), all.end(), name) - all.begin())};
-  }
+  static SelectedRiemann of(const std::string& name) { return {place_of(name, names())}; }
 
   template <class Eos, class N>
   SPHMBS_INLINE riemann::Star<N> star(const Eos& eos, const riemann::State<N>& left,
@@ -46,10 +48,7 @@ struct SelectedLimiter {
   int which = 0;
 
   static std::vector<std::string> names() { return {"van_leer", "minmod", "none"}; }
-  static SelectedLimiter of(const std::string& name) {
-    const auto all = names();
-    return {static_cast<int>(std::find(all.begin(), all.end(), name) - all.begin())};
-  }
+  static SelectedLimiter of(const std::string& name) { return {place_of(name, names())}; }
 
   template <class N>
   SPHMBS_INLINE N difference(N projected, N jump) const {

@@ -11,6 +11,7 @@ namespace sphmbs::boundary {
 struct Evolved {
   static constexpr bool evolves = true;
   static constexpr bool surfaces = false;
+  static constexpr bool slips = false;
 
   template <class N>
   SPHMBS_INLINE riemann::State<N> facing(const riemann::State<N>&,

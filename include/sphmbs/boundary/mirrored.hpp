@@ -13,6 +13,7 @@ namespace sphmbs::boundary {
 struct Mirrored {
   static constexpr bool evolves = false;
   static constexpr bool surfaces = false;
+  static constexpr bool slips = false;
 
   template <class N>
   SPHMBS_INLINE riemann::State<N> facing(const riemann::State<N>& gas,

@@ -36,21 +36,21 @@ struct Contact {
 ///   particle's own state, its u the velocity of the wall. `evolves` says whether virtual particles
 ///   carry a density and an energy that follow eqs. (20) and (22).
 /// - with `surfaces`, `contact(meeting)` is the solution itself, from the gas's slopes and the true
-///   surface, and `slips` says whether gas may slide along it; the virtual particles must have been
-///   added with their solid.
+///   surface; the virtual particles must have been added with their solid.
 ///
-/// All must also accept packs.
+/// `slips` says whether gas slides along the surface without friction, which only walls of the
+/// second kind know. All must also accept packs.
 template <class W>
 concept WallModel = std::is_trivially_copyable_v<W> && requires(const W wall) {
   { W::evolves } -> std::convertible_to<bool>;
   { W::surfaces } -> std::convertible_to<bool>;
+  { W::slips } -> std::convertible_to<bool>;
   wall.check();
 } &&(
     requires(const W wall, riemann::State<double> gas, riemann::State<double> stored) {
       { wall.facing(gas, stored) } -> std::same_as<riemann::State<double>>;
     } ||
     requires(const W wall, Meeting<2, double> meeting) {
-      { W::slips } -> std::convertible_to<bool>;
       { wall.contact(meeting) } -> std::same_as<Contact<2, double>>;
       { wall.isothermal } -> std::convertible_to<bool>;
     });

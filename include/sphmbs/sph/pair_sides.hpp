@@ -7,6 +7,13 @@
 
 namespace sphmbs::sph {
 
+/// Where one particle of a pair at least is virtual.
+template <int Dim, class T, class N>
+SPHMBS_INLINE auto meets_wall(const particles::Record<Dim, T>& a,
+                              const particles::Record<Dim, N>& b) {
+  return N(a.shell) + b.shell > N(Scalar<N>(0.5));
+}
+
 /// What is found between the particles a and b of a pair.
 template <int Dim, class N>
 struct Between {
@@ -51,34 +58,40 @@ struct PairSides {
     }
     if constexpr (!Wall::evolves && !Wall::surfaces) {
       const riemann::State<N> stored = left;
-      left = replaced(N(a.shell) * (N(T(1)) - b.shell), stored, scheme.wall.facing(right, stored));
-      right = replaced(b.shell * N(T(1) - a.shell), right, scheme.wall.facing(stored, right));
+      const N half = N(T(0.5));
+      left = chosen(N(a.shell) * (N(T(1)) - b.shell) > half, scheme.wall.facing(right, stored),
+                    stored);
+      right = chosen(b.shell * N(T(1) - a.shell) > half, scheme.wall.facing(stored, right), right);
       if constexpr (Scheme::Stress::acts) {
         // Such walls take no heat: friction heats the gas alone.
-        const auto yes = N(a.shell) + b.shell > N(T(0.5));
-        found.dT = math::select(yes, N(T(0)), found.dT);
-#pragma GCC unroll 3
-        for (int k = 0; k < dim; ++k)
-          found.rubbing[k] = math::select(yes, found.dv[k], found.rubbing[k]);
+        const auto wall = meets_wall(a, b);
+        found.dT = math::select(wall, N(T(0)), found.dT);
+        found.rubbing = chosen(wall, found.dv, found.rubbing);
       }
     }
     if constexpr (Scheme::Reconstruction::slopes)
       found.fell = reconstruct(b, around_b, d, inverse_r, left, right);
     found.star = scheme.riemann.star(scheme.eos, left, right);  // eqs. (16), (19)
     if constexpr (Wall::surfaces) {
-      const N walls = N(a.shell) + b.shell;
-      if (math::any(walls > N(T(0.5)))) meet_wall(b, around_b, d, inverse_r, found);
+      if (math::any(meets_wall(a, b))) meet_wall(b, around_b, d, inverse_r, found);
     }
     return found;
   }
 
  private:
-  template <class N>
-  static SPHMBS_INLINE riemann::State<N> replaced(N where, const riemann::State<N>& stored,
-                                                  const riemann::State<N>& facing) {
-    const auto yes = where > N(T(0.5));
-    return {math::select(yes, facing.rho, stored.rho), math::select(yes, facing.u, stored.u),
-            math::select(yes, facing.p, stored.p), math::select(yes, facing.c, stored.c)};
+  template <class Condition, class N>
+  static SPHMBS_INLINE riemann::State<N> chosen(Condition yes, const riemann::State<N>& x,
+                                                const riemann::State<N>& y) {
+    return {math::select(yes, x.rho, y.rho), math::select(yes, x.u, y.u),
+            math::select(yes, x.p, y.p), math::select(yes, x.c, y.c)};
+  }
+  template <class Condition, class N>
+  static SPHMBS_INLINE Vec<dim, N> chosen(Condition yes, const Vec<dim, N>& x,
+                                          const Vec<dim, N>& y) {
+    Vec<dim, N> z;
+#pragma GCC unroll 3
+    for (int k = 0; k < dim; ++k) z[k] = math::select(yes, x[k], y[k]);
+    return z;
   }
 
   /// Carries both states to the middle of the pair; returns 1 where they would not be admissible.
@@ -125,73 +138,49 @@ struct PairSides {
     }
   }
 
-  template <class Condition, class N>
-  static SPHMBS_INLINE riemann::State<N> chosen(Condition yes, const riemann::State<N>& x,
-                                                const riemann::State<N>& y) {
-    return {math::select(yes, x.rho, y.rho), math::select(yes, x.u, y.u),
-            math::select(yes, x.p, y.p), math::select(yes, x.c, y.c)};
-  }
-
   /// Replaces what was found where gas meets a virtual particle with what the wall model says.
   template <class N>
   SPHMBS_INLINE void meet_wall(const particles::Record<dim, N>& b,
                                const particles::Vicinity<dim, N>& around_b, const Vec<dim, N>& d,
                                N inverse_r, Between<dim, N>& found) const {
-    boundary::Contact<dim, N> contact;
-    Vec<dim, N> gas_to_contact;  // v_gas - v*
-    Vec<dim, N> gas_to_wall;
-    Vec<dim, N> normal;
-    N excess = N(T(0));  // temperature of the gas over the wall's [K]
-    N sign = N(T(1));
-    auto yes = b.shell > N(T(0.5));
-    if (a.shell > T(0.5)) {
-      const boundary::Meeting<dim, N> m{b,
-                                        around_b.slopes,
-                                        a.v.template to<N>(),
-                                        N(T(-1)) * d,
-                                        N(T(-1)) * around_a.surface.normal,
-                                        N(around_a.surface.depth)};
-      contact = scheme.wall.contact(m);
-      gas_to_contact = m.gas.v - contact.v;
-      gas_to_wall = m.gas.v - m.wall_velocity;
-      normal = m.normal;
-      sign = N(T(-1));
-      yes = b.shell < N(T(0.5));
-      if constexpr (Scheme::Stress::acts)
-        excess = scheme.eos.temperature(b.rho, b.p) - N(scheme.eos.temperature(a.rho, a.p));
-    } else {
-      const boundary::Meeting<dim, N> m{
-          wide<N>(a), wide<N>(around_a.slopes),           b.v,
-          d,          N(T(-1)) * around_b.surface.normal, around_b.surface.depth};
-      contact = scheme.wall.contact(m);
-      gas_to_contact = m.gas.v - contact.v;
-      gas_to_wall = m.gas.v - m.wall_velocity;
-      normal = m.normal;
-      if constexpr (Scheme::Stress::acts)
-        excess = N(scheme.eos.temperature(a.rho, a.p)) - scheme.eos.temperature(b.rho, b.p);
-    }
-    found.star.p = math::select(yes, contact.p, found.star.p);
-    found.star.u = math::select(yes, dot(contact.v, d) * inverse_r, found.star.u);
+    const N half = N(T(0.5));
+    const N back = N(T(-1));
+    if (a.shell > T(0.5))
+      touch(b.shell < half,
+            {b, around_b.slopes, a.v.template to<N>(), back * d, back * around_a.surface.normal,
+             N(around_a.surface.depth)},
+            back, d, inverse_r, found);
+    else
+      touch(b.shell > half,
+            {wide<N>(a), wide<N>(around_a.slopes), b.v, d, back * around_b.surface.normal,
+             around_b.surface.depth},
+            N(T(1)), d, inverse_r, found);
+  }
+
+  /// @param where  one of a and b is gas and the other one virtual
+  /// @param side   1 if a is the gas, -1 if b is
+  template <class Condition, class N>
+  SPHMBS_INLINE void touch(Condition where, const boundary::Meeting<dim, N>& meeting, N side,
+                           const Vec<dim, N>& d, N inverse_r, Between<dim, N>& found) const {
+    const boundary::Contact<dim, N> contact = scheme.wall.contact(meeting);
+    found.star.p = math::select(where, contact.p, found.star.p);
+    found.star.u = math::select(where, dot(contact.v, d) * inverse_r, found.star.u);
     // Linear through the middle: the far end is as far off again.
-#pragma GCC unroll 3
-    for (int k = 0; k < dim; ++k)
-      found.relative[k] = math::select(yes, N(T(-2)) * sign * gas_to_contact[k], found.relative[k]);
+    Vec<dim, N> twice = N(T(2)) * side * (meeting.gas.v - contact.v);
+    found.relative = chosen(where, N(T(-1)) * twice, found.relative);
     if constexpr (Scheme::Stress::acts) {
-      // All friction heats the gas.
+      Vec<dim, N> rubbing = found.dv;  // all friction heats the gas
       const N lets = N(static_cast<T>(scheme.wall.isothermal ? 2 : 0));
-      found.dT = math::select(yes, lets * sign * contact.phi * excess, found.dT);
+      found.dT = math::select(where, lets * contact.phi * found.dT, found.dT);
       // Gas that slips shears nothing at the wall.
       if constexpr (Wall::slips) {
-        gas_to_contact = dot(gas_to_contact, normal) * normal;
-        gas_to_wall = dot(gas_to_wall, normal) * normal;
-        found.slips = math::select(yes, N(T(1)), N(T(0)));
-        found.normal = normal;
+        twice = dot(twice, meeting.normal) * meeting.normal;
+        rubbing = dot(rubbing, meeting.normal) * meeting.normal;
+        found.slips = math::select(where, N(T(1)), N(T(0)));
+        found.normal = meeting.normal;
       }
-#pragma GCC unroll 3
-      for (int k = 0; k < dim; ++k) {
-        found.dv[k] = math::select(yes, N(T(2)) * sign * gas_to_contact[k], found.dv[k]);
-        found.rubbing[k] = math::select(yes, sign * gas_to_wall[k], found.rubbing[k]);
-      }
+      found.dv = chosen(where, twice, found.dv);
+      found.rubbing = chosen(where, rubbing, found.rubbing);
     }
   }
 

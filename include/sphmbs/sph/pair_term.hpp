@@ -30,12 +30,7 @@ template <class Scheme, class T, bool wraps>
 struct PairTerm {
   static constexpr int dim = Scheme::dim;
   using Kernel = typename Scheme::Kernel;
-  static constexpr bool slips = [] {
-    if constexpr (Scheme::Wall::surfaces)
-      return Scheme::Wall::slips;
-    else
-      return false;
-  }();
+  using Wall = typename Scheme::Wall;
 
   const Scheme& scheme;
   const geometry::Periodicity<dim, T>& space;
@@ -65,8 +60,8 @@ struct PairTerm {
     // A virtual particle without a state has a volume, whatever the gas's density.
     N area = scheme.form.area(between.rho_a, between.rho_b);
     N dilation = scheme.form.dilation(between.rho_a, between.rho_b);
-    if constexpr (!Scheme::Wall::evolves) {
-      const auto wall = N(a.shell) + b.shell > N(T(0.5));
+    if constexpr (!Wall::evolves) {
+      const auto wall = meets_wall(a, b);
       area = math::select(wall, VolumeForm{}.area(between.rho_a, between.rho_b), area);
       dilation = math::select(wall, VolumeForm{}.dilation(between.rho_a, between.rho_b), dilation);
     }
@@ -76,23 +71,23 @@ struct PairTerm {
     sum.rho += mdW * du * dilation;
     sum.e += face * between.star.p * du;
     sum.v += (push * inverse_r * load) * d;
-    if constexpr (Scheme::Wall::surfaces)
+    if constexpr (Wall::surfaces)
       sum.power += push * (N(a.shell) - b.shell * N(a.shell)) * du;
-    else if constexpr (Scheme::Wall::evolves)
+    else if constexpr (Wall::evolves)
       sum.power += push * (N(T(1)) - load) * between.u_a;
+    [[maybe_unused]] const N mW = scale * Kernel::shape(R);  // m_b W
     if constexpr (Scheme::Smoothing::acts) {
-      const N weight = scale * Kernel::shape(R);
-      sum.r += (weight / (N(a.rho) + b.rho)) * between.relative;
+      sum.r += (mW / (N(a.rho) + b.rho)) * between.relative;
       if constexpr (Scheme::Smoothing::shifts) {
         const N volume = N(T(1)) / b.rho;
         sum.crowd += (mdW * volume * inverse_r) * d;
-        sum.spread += weight * volume * norm2(between.relative);
+        sum.spread += mW * volume * norm2(between.relative);
       }
     }
     if constexpr (Scheme::Density::relaxes) {
       // m_a W: lighter particles beside heavier ones are not drawn to their density.
-      N weight = scale * Kernel::shape(R) * (N(a.m) / b.m);
-      if constexpr (!Scheme::Wall::evolves)
+      N weight = mW * (N(a.m) / b.m);
+      if constexpr (!Wall::evolves)
         weight =
             math::select(b.shell > N(T(0.5)), weight * (N(a.rho) * b.m) / (b.rho * N(a.m)), weight);
       // The particle itself, which fills up packs, is no neighbour.
@@ -101,14 +96,15 @@ struct PairTerm {
     if constexpr (Scheme::Stress::acts) {
       const N share = (N(T(0)) - mdW) * inverse_r / (N(a.rho) * b.rho);
       Vec<dim, N> drag = scheme.stress.drag(share, inverse_r * d, between.dv);
-      if constexpr (slips)
+      if constexpr (Wall::slips)
         drag -= between.slips * (drag - dot(drag, between.normal) * between.normal);
+      const N heat = scheme.stress.conduction(share, between.dT);
       sum.v -= load * drag;
-      if constexpr (Scheme::Wall::surfaces)
-        sum.power -= N(a.shell) * load * scheme.stress.conduction(share, between.dT);
-      else if constexpr (Scheme::Wall::evolves)
+      if constexpr (Wall::surfaces)
+        sum.power -= N(a.shell) * load * heat;
+      else if constexpr (Wall::evolves)
         sum.power -= (N(T(1)) - load) * dot(drag, a.v);
-      sum.e += dot(drag, between.rubbing) - scheme.stress.conduction(share, between.dT);
+      sum.e += dot(drag, between.rubbing) - heat;
     }
     const N inside = math::select(R < N(static_cast<T>(Kernel::support)), N(T(1)), N(T(0)));
     sum.pairs += inside;

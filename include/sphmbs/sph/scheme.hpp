@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <sphmbs/boundary/evolved.hpp>
 #include <sphmbs/eos/equation_of_state.hpp>
@@ -19,34 +22,22 @@ namespace sphmbs::sph {
 
 namespace detail {
 
-struct IsSmoothing {
+enum class Place { smoothing, wall, stress, reconstruction, density, form };
+
+/// Whether a policy fits each of them.
+template <class P>
+inline constexpr std::array fits{MotionSmoothing<P>, boundary::WallModel<P>,
+                                 StressModel<P>,     reconstruction::Reconstruction<P>,
+                                 DensityModel<P>,    FluxForm<P>};
+
+template <Place place>
+struct Fits {
   template <class P>
-  static constexpr bool value = MotionSmoothing<P>;
-};
-struct IsWall {
-  template <class P>
-  static constexpr bool value = boundary::WallModel<P>;
-};
-struct IsStress {
-  template <class P>
-  static constexpr bool value = StressModel<P>;
-};
-struct IsReconstruction {
-  template <class P>
-  static constexpr bool value = reconstruction::Reconstruction<P>;
-};
-struct IsDensity {
-  template <class P>
-  static constexpr bool value = DensityModel<P>;
-};
-struct IsForm {
-  template <class P>
-  static constexpr bool value = FluxForm<P>;
+  static constexpr bool value = fits<P>[static_cast<std::size_t>(place)];
 };
 
 template <class P>
-inline constexpr int places = MotionSmoothing<P> + boundary::WallModel<P> + StressModel<P> +
-                              reconstruction::Reconstruction<P> + DensityModel<P> + FluxForm<P>;
+inline constexpr auto places = std::count(fits<P>.begin(), fits<P>.end(), true);
 
 }  // namespace detail
 
@@ -63,12 +54,13 @@ struct RiemannSph {
   static constexpr int dim = KernelType::dim;
   using Kernel = KernelType;
   using Riemann = RiemannType;
-  using Smoothing = Choice<detail::IsSmoothing, Xsph, Policies...>;
-  using Wall = Choice<detail::IsWall, boundary::Evolved, Policies...>;
-  using Stress = Choice<detail::IsStress, Inviscid, Policies...>;
-  using Reconstruction = Choice<detail::IsReconstruction, reconstruction::Constant, Policies...>;
-  using Density = Choice<detail::IsDensity, Integrated, Policies...>;
-  using Form = Choice<detail::IsForm, MassForm, Policies...>;
+  using Smoothing = Choice<detail::Fits<detail::Place::smoothing>, Xsph, Policies...>;
+  using Wall = Choice<detail::Fits<detail::Place::wall>, boundary::Evolved, Policies...>;
+  using Stress = Choice<detail::Fits<detail::Place::stress>, Inviscid, Policies...>;
+  using Reconstruction =
+      Choice<detail::Fits<detail::Place::reconstruction>, reconstruction::Constant, Policies...>;
+  using Density = Choice<detail::Fits<detail::Place::density>, Integrated, Policies...>;
+  using Form = Choice<detail::Fits<detail::Place::form>, MassForm, Policies...>;
 
   /// Whether pairs see slopes of the gas and surfaces of solids.
   static constexpr bool vicinity = Reconstruction::slopes || Wall::surfaces;

@@ -10,6 +10,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "unit/riemann/problems.hpp"
 
 namespace {
 
@@ -17,14 +18,10 @@ using sphmbs::eos::IdealGas;
 using sphmbs::riemann::Exact;
 using sphmbs::riemann::ExactSolution;
 using sphmbs::riemann::Hllc;
-using sphmbs::riemann::Primitive;
 using sphmbs::riemann::Star;
 using sphmbs::riemann::State;
-
-struct Problem {
-  Primitive l;
-  Primitive r;
-};
+using test::Problem;
+using test::state_of;
 
 const Problem sod{{1, 0, 1}, {0.125, 0, 0.1}};
 const Problem two_fans{{1, -2, 0.4}, {1, 2, 0.4}};
@@ -32,38 +29,31 @@ const Problem left_blast{{1, 0, 1000}, {1, 0, 0.01}};
 const Problem right_blast{{1, 0, 0.01}, {1, 0, 100}};
 const Problem collision{{5.99924, 19.5975, 460.894}, {5.99242, -6.19633, 46.0950}};
 
-template <class T>
-State<T> state_of(const IdealGas& gas, const Primitive& s) {
-  return {static_cast<T>(s.rho), static_cast<T>(s.u), static_cast<T>(s.p),
-          static_cast<T>(gas.sound_speed(s.rho, s.p))};
-}
-
 template <class T = double, class Solver>
 Star<double> solve(const Solver& solver, const IdealGas& gas, const Problem& problem) {
-  const auto star = solver.star(gas, state_of<T>(gas, problem.l), state_of<T>(gas, problem.r));
+  const auto star =
+      solver.star(gas, state_of<T>(gas, problem.left), state_of<T>(gas, problem.right));
   return {star.p, star.u};
 }
 
 /// Errors of p* by p*, and of u* by the larger of the two jumps of velocity.
 Star<double> error(const IdealGas& gas, const Problem& problem, const Star<double>& found) {
-  const auto exact = ExactSolution(problem.l, problem.r, gas.gamma).star();
-  const double jump = std::max(std::abs(exact.u - problem.l.u), std::abs(exact.u - problem.r.u));
+  const auto exact = ExactSolution(problem.left, problem.right, gas.gamma).star();
+  const double jump =
+      std::max(std::abs(exact.u - problem.left.u), std::abs(exact.u - problem.right.u));
   return {std::abs(found.p - exact.p) / exact.p, std::abs(found.u - exact.u) / jump};
 }
 
-/// Pressures apart by up to `decades`, densities by up to two, closing by up to `mach` of the
-/// larger sound speed, or opening where that is negative.
+/// Gases apart by up to `decades` in pressure, closing by up to `mach` of the larger sound speed,
+/// or opening where that is negative.
 Problem some_problem(const IdealGas& gas, test::Random& random, double decades, double mach) {
-  const auto some = [&] {
-    return Primitive{std::pow(10, random.between(-1, 1)), 0,
-                     std::pow(10, random.between(-decades / 2, decades / 2))};
-  };
-  Problem problem{some(), some()};
-  const double closing = random.between(0, 1) * mach *
-                         std::max(gas.sound_speed(problem.l.rho, problem.l.p),
-                                  gas.sound_speed(problem.r.rho, problem.r.p));
-  problem.l.u = 0.5 * closing;
-  problem.r.u = -0.5 * closing;
+  Problem problem = test::some_problem_at_rest(random, decades);
+  auto& [left, right] = problem;
+  const double closing =
+      random.unit() * mach *
+      std::max(gas.sound_speed(left.rho, left.p), gas.sound_speed(right.rho, right.p));
+  left.u = 0.5 * closing;
+  right.u = -0.5 * closing;
   return problem;
 }
 
@@ -98,8 +88,8 @@ TEST_CASE("the exact solver meets the exact solution of strong problems", "[riem
 
 TEST_CASE("in vacuum the exact solver gives the mean of both escape speeds", "[riemann]") {
   const IdealGas gas;
-  const auto l = state_of<double>(gas, {1, -20, 1});
-  const auto r = state_of<double>(gas, {0.2, 20, 3});
+  const auto l = state_of(gas, {1, -20, 1});
+  const auto r = state_of(gas, {0.2, 20, 3});
   const auto star = Exact{}.star(gas, l, r);
   CHECK(star.p == 0);
   CHECK(star.u == Approx(0.5 * (l.u + 5 * l.c + r.u - 5 * r.c)).epsilon(1e-14));
@@ -107,7 +97,7 @@ TEST_CASE("in vacuum the exact solver gives the mean of both escape speeds", "[r
 
 TEST_CASE("gas that runs into vacuum itself is accelerated to half its escape speed", "[riemann]") {
   const IdealGas gas;
-  const auto l = state_of<double>(gas, {1, 0, 1});
+  const auto l = state_of(gas, {1, 0, 1});
   const State<double> nothing{1e-3, 5 * l.c * 1.001, 0, 0};
   const auto star = Exact{}.star(gas, l, nothing);
   CHECK(star.p == 0);
@@ -117,9 +107,9 @@ TEST_CASE("gas that runs into vacuum itself is accelerated to half its escape sp
 TEST_CASE("a cold side is the limit of a side of little pressure", "[riemann]") {
   const IdealGas gas;
   for (const double u : {-3.0, 0.0, 2.0, 4.0}) {
-    const auto l = state_of<double>(gas, {1, 0, 1});
+    const auto l = state_of(gas, {1, 0, 1});
     const auto cold = Exact{}.star(gas, l, {0.5, u, 0, 0});
-    const auto cool = Exact{}.star(gas, l, state_of<double>(gas, {0.5, u, 1e-16}));
+    const auto cool = Exact{}.star(gas, l, state_of(gas, {0.5, u, 1e-16}));
     CHECK(cold.p == Approx(cool.p).epsilon(1e-7));
     CHECK(cold.u == Approx(cool.u).epsilon(1e-7));
   }

@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/errors.hpp"
 #include "support/random.hpp"
+#include "unit/riemann/problems.hpp"
 
 namespace {
 
@@ -16,20 +17,13 @@ using sphmbs::riemann::Acoustic;
 using sphmbs::riemann::ExactSolution;
 using sphmbs::riemann::Primitive;
 using sphmbs::riemann::State;
+using test::impedance;
+using test::some_state;
+using test::state_of;
 
 constexpr double heat_ratio = 1.4;
 constexpr double rounding = 1e-14;
 constexpr sphmbs::eos::IdealGas gas{.gamma = heat_ratio};
-
-State<double> state_of(const Primitive& s) {
-  return {s.rho, s.u, s.p, std::sqrt(heat_ratio * s.p / s.rho)};
-}
-
-State<double> some_state(test::Random& random) {
-  return state_of({random.between(0.5, 3), random.between(-50, 50), random.between(1e4, 2e5)});
-}
-
-double impedance(const State<double>& s) { return s.rho * s.c; }
 
 /// The difference of star pressures and velocities, each by its natural scale.
 double distance(const sphmbs::riemann::Star<double>& a, const sphmbs::riemann::Star<double>& b,
@@ -42,7 +36,7 @@ double distance(const sphmbs::riemann::Star<double>& a, const sphmbs::riemann::S
 
 TEST_CASE("two states of one velocity and pressure keep them across a jump of density",
           "[riemann]") {
-  const auto star = Acoustic{}.star(gas, state_of({1, 7, 1e5}), state_of({30, 7, 1e5}));
+  const auto star = Acoustic{}.star(gas, state_of(gas, {1, 7, 1e5}), state_of(gas, {30, 7, 1e5}));
   CHECK(star.p == Approx(1e5).epsilon(rounding));
   CHECK(star.u == Approx(7).epsilon(1e-12));
 }
@@ -50,8 +44,8 @@ TEST_CASE("two states of one velocity and pressure keep them across a jump of de
 TEST_CASE("both acoustic waves carry their jump relations", "[riemann]") {
   test::Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
-    const auto l = some_state(random);
-    const auto r = some_state(random);
+    const auto l = some_state(gas, random);
+    const auto r = some_state(gas, random);
     const auto star = Acoustic{}.star(gas, l, r);
     const double tolerance = 1e-13 * (l.p + r.p + 100 * (impedance(l) + impedance(r)));
     CHECK(std::abs(star.p - l.p + impedance(l) * (star.u - l.u)) < tolerance);
@@ -68,10 +62,10 @@ TEST_CASE("between equal impedances p* is the mean plus rho c (ul - ur) / 2", "[
 }
 
 TEST_CASE("pressure from the left pushes to the right, and approach compresses", "[riemann]") {
-  const auto calm = state_of({1, 0, 1e5});
-  CHECK(Acoustic{}.star(gas, state_of({1, 0, 2e5}), calm).u > 0);
-  CHECK(Acoustic{}.star(gas, state_of({1, 10, 1e5}), calm).p > 1e5);
-  CHECK(Acoustic{}.star(gas, state_of({1, -10, 1e5}), calm).p < 1e5);
+  const auto calm = state_of(gas, {1, 0, 1e5});
+  CHECK(Acoustic{}.star(gas, state_of(gas, {1, 0, 2e5}), calm).u > 0);
+  CHECK(Acoustic{}.star(gas, state_of(gas, {1, 10, 1e5}), calm).p > 1e5);
+  CHECK(Acoustic{}.star(gas, state_of(gas, {1, -10, 1e5}), calm).p < 1e5);
 }
 
 TEST_CASE("the acoustic solution differs from the exact one by the square of the jump",
@@ -81,7 +75,7 @@ TEST_CASE("the acoustic solution differs from the exact one by the square of the
   const auto error = [&](double size) {
     const Primitive l{base.rho * (1 + 0.5 * size), 0.3 * size * c, base.p * (1 + size)};
     const Primitive r{base.rho * (1 - 0.8 * size), -0.7 * size * c, base.p * (1 - 0.4 * size)};
-    return distance(Acoustic{}.star(gas, state_of(l), state_of(r)),
+    return distance(Acoustic{}.star(gas, state_of(gas, l), state_of(gas, r)),
                     ExactSolution(l, r, heat_ratio).star(), base);
   };
   for (const double size : {0.1, 0.05, 0.025, 0.0125}) {

@@ -16,6 +16,7 @@
 #include "support/catch.hpp"
 #include "support/errors.hpp"
 #include "support/random.hpp"
+#include "unit/riemann/problems.hpp"
 
 namespace {
 
@@ -29,6 +30,10 @@ using sphmbs::riemann::Hllc;
 using sphmbs::riemann::LimitedAcoustic;
 using sphmbs::riemann::Star;
 using sphmbs::riemann::State;
+using test::impedance;
+using test::power_of_ten;
+using test::some_state;
+using test::state_of;
 
 using Solvers = std::tuple<Acoustic, LimitedAcoustic, Hllc, Exact>;
 using GammaLawSolvers = std::tuple<Hllc, Exact>;
@@ -40,27 +45,11 @@ struct Pair {
   State<double> right;
 };
 
-template <class Gas>
-State<double> state_of(const Gas& gas, double rho, double u, double p) {
-  return {rho, u, p, gas.sound_speed(rho, p)};
-}
-
-template <class Gas>
-State<double> some_state(const Gas& gas, test::Random& random) {
-  return state_of(gas, random.between(0.5, 3), random.between(-50, 50), random.between(1e4, 2e5));
-}
-
-double power_of_ten(test::Random& random, double from, double to) {
-  return std::pow(10, random.between(from, to));
-}
-
-/// Pressures apart by up to `decades` powers of ten, densities by up to two, and velocities apart
-/// by up to `mach` of the larger sound speed, closing or opening.
+/// Gases apart by up to `decades` in pressure, their velocities by up to `mach` of the larger sound
+/// speed, closing or opening.
 Pair strong_pair(const IdealGas& gas, test::Random& random, double decades, double mach) {
-  Pair pair{state_of(gas, power_of_ten(random, -1, 1), 0,
-                     power_of_ten(random, -decades / 2, decades / 2)),
-            state_of(gas, power_of_ten(random, -1, 1), 0,
-                     power_of_ten(random, -decades / 2, decades / 2))};
+  const auto problem = test::some_problem_at_rest(random, decades);
+  Pair pair{state_of(gas, problem.left), state_of(gas, problem.right)};
   const double c = std::max(pair.left.c, pair.right.c);
   pair.left.u = random.between(-mach, mach) * c;
   pair.right.u = random.between(-mach, mach) * c;
@@ -73,8 +62,6 @@ Pair mirrored(const Pair& pair) {
   image.right.u = -pair.left.u;
   return image;
 }
-
-double impedance(const State<double>& s) { return s.rho * s.c; }
 
 /// What rounding of p* and u* is measured by.
 Star<double> size_of(const Pair& pair, double p_inf = 0) {
@@ -201,8 +188,9 @@ TEMPLATE_LIST_TEST_CASE("weak waves are acoustic but for the square of the jump"
   for (const double sign : {1.0, -1.0}) {
     const auto difference = [&](double size) {
       size *= sign;
-      const auto l = state_of(gas, 1.2 * (1 + 0.5 * size), 0.3 * size * c, 1e5 * (1 + size));
-      const auto r = state_of(gas, 1.2 * (1 - 0.8 * size), -0.7 * size * c, 1e5 * (1 - 0.4 * size));
+      const auto l = state_of(gas, {1.2 * (1 + 0.5 * size), 0.3 * size * c, 1e5 * (1 + size)});
+      const auto r =
+          state_of(gas, {1.2 * (1 - 0.8 * size), -0.7 * size * c, 1e5 * (1 - 0.4 * size)});
       const auto star = solver.star(gas, l, r);
       const auto weak = Acoustic{}.star(gas, l, r);
       return std::hypot((star.p - weak.p) / 1e5, (star.u - weak.u) / c);
@@ -290,7 +278,7 @@ TEMPLATE_LIST_TEST_CASE("cold streams collide with the pressure of the strong sh
   for (const double gamma : {1.4, 5.0 / 3}) {
     const IdealGas gas{.gamma = gamma};
     for (const double p : {0.0, 1e-6}) {
-      const auto star = TestType{}.star(gas, state_of(gas, 1, 1, p), state_of(gas, 1, -1, p));
+      const auto star = TestType{}.star(gas, state_of(gas, {1, 1, p}), state_of(gas, {1, -1, p}));
       CHECK(star.p == Approx((gamma + 1) / 2).epsilon(2e-3));
       CHECK(std::abs(star.u) < 1e-15);
     }
@@ -301,13 +289,13 @@ TEMPLATE_LIST_TEST_CASE("gas that parts faster than it can follow leaves vacuum"
                         GammaLawSolvers) {
   const IdealGas gas;
   const StiffenedGas water;
-  CHECK(TestType{}.star(gas, state_of(gas, 1, -10, 1), state_of(gas, 1, 10, 1)).p == 0);
+  CHECK(TestType{}.star(gas, state_of(gas, {1, -10, 1}), state_of(gas, {1, 10, 1})).p == 0);
   const auto star =
-      TestType{}.star(water, state_of(water, 1e3, -1e4, 1e5), state_of(water, 1e3, 1e4, 1e5));
+      TestType{}.star(water, state_of(water, {1e3, -1e4, 1e5}), state_of(water, {1e3, 1e4, 1e5}));
   CHECK(star.p == Approx(-water.stiffness).epsilon(1e-14));
   const StiffenedGas soft{.gamma = 4.4, .stiffness = 1};
   const auto beside_strong =
-      TestType{}.star(soft, state_of(soft, 1, -1e10, 1e16), state_of(soft, 1, 1e10, 0));
+      TestType{}.star(soft, state_of(soft, {1, -1e10, 1e16}), state_of(soft, {1, 1e10, 0}));
   CHECK(beside_strong.p == Approx(-1).epsilon(1e-14));
 }
 
@@ -333,8 +321,8 @@ TEMPLATE_LIST_TEST_CASE("a stiffened gas is an ideal gas of another pressure", "
 TEST_CASE("the limited solver is the acoustic one in strong compression", "[riemann]") {
   const IdealGas gas;
   const LimitedAcoustic solver;
-  const auto l = state_of(gas, 1.2, 150, 1.3e5);
-  const auto r = state_of(gas, 0.8, 0, 1e5);
+  const auto l = state_of(gas, {1.2, 150, 1.3e5});
+  const auto r = state_of(gas, {0.8, 0, 1e5});
   const auto star = solver.star(gas, l, r);
   const auto full = Acoustic{}.star(gas, l, r);
   CHECK(star.p == Approx(full.p).epsilon(1e-14));
@@ -343,8 +331,8 @@ TEST_CASE("the limited solver is the acoustic one in strong compression", "[riem
 
 TEST_CASE("the limited solver takes means where gas expands", "[riemann]") {
   const IdealGas gas;
-  const auto l = state_of(gas, 1.2, -30, 1.3e5);
-  const auto r = state_of(gas, 0.8, 20, 1e5);
+  const auto l = state_of(gas, {1.2, -30, 1.3e5});
+  const auto r = state_of(gas, {0.8, 20, 1e5});
   const auto star = LimitedAcoustic{}.star(gas, l, r);
   const double Zl = impedance(l);
   const double Zr = impedance(r);
@@ -354,8 +342,8 @@ TEST_CASE("the limited solver takes means where gas expands", "[riemann]") {
 
 TEST_CASE("the limited solver weighs both dissipations with the closing speed", "[riemann]") {
   const IdealGas gas;
-  const auto l = state_of(gas, 1.2, 10, 1.3e5);
-  const auto r = state_of(gas, 0.8, 0, 1e5);
+  const auto l = state_of(gas, {1.2, 10, 1.3e5});
+  const auto r = state_of(gas, {0.8, 0, 1e5});
   for (const double strength : {0.5, 3.0}) {
     const LimitedAcoustic solver{.strength = strength};
     const double share = strength * 10 / (0.5 * (l.c + r.c));

@@ -26,6 +26,7 @@ using WalledGas = test::Gas<2, sphmbs::sph::Xsph, sphmbs::sph::Inviscid, Wall>;
 struct Mirror {
   static constexpr bool evolves = false;
   static constexpr bool surfaces = false;
+  static constexpr bool slips = false;
   void check() const {}
   template <class N>
   sphmbs::riemann::State<N> facing(const sphmbs::riemann::State<N>& gas,

@@ -39,6 +39,16 @@ inline sphmbs::eos::IdealGas unit_gas() {
   return {.gamma = heat_ratio, .molar_mass = 1, .gas_constant = 1};
 }
 
+/// At pressure 1 / gamma, between walls of one temperature, which keep the heat of friction from
+/// thinning the gas near them: adiabatic ones do so by some percent.
+template <class Gas>
+Gas isothermal(double viscosity) {
+  return {.eos = unit_gas(),
+          .background = pressure,
+          .wall = {.isothermal = true},
+          .stress = {.viscosity = viscosity, .conductivity = heat_capacity * viscosity / prandtl}};
+}
+
 /// What lies below a height (side 1) or above it (side -1).
 struct HalfPlane {
   static constexpr int dim = 2;
@@ -90,6 +100,12 @@ struct Plan {
     return cloud;
   }
 };
+
+/// Sets the gas of a cloud in the steady motion of Couette flow.
+inline void shear(sphmbs::particles::Cloud<2>& cloud, double speed) {
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (cloud.set[i] == sphmbs::particles::gas) cloud.v[i][0] = speed * cloud.r[i][1];
+}
 
 template <class Gas>
 using Fluid = sphmbs::sph::Fluid<Gas, sphmbs::execution::Serial, Sliding>;

@@ -25,22 +25,14 @@ double couette(double y, double tau) {
   return u;
 }
 
-/// Walls of one temperature keep the heat of friction, whose share grows as the square of the Mach
-/// number, from changing the density.
-Gas<NoSlip> isothermal() {
-  return {.eos = unit_gas(),
-          .background = pressure,
-          .wall = {.isothermal = true},
-          .stress = {.viscosity = viscosity, .conductivity = heat_capacity * viscosity / prandtl}};
-}
-
 }  // namespace
 
 TEST_CASE("Couette flow starts and settles as the series says", "[viscous]") {
   std::vector<double> early, late, steady;
   for (const int rows : {8, 16, 32}) {
     const Plan plan{rows};
-    Fluid<Gas<NoSlip>> fluid(isothermal(), plan.domain(), plan.cloud(), Sliding{speed});
+    Fluid<Gas<NoSlip>> fluid(isothermal<Gas<NoSlip>>(viscosity), plan.domain(), plan.cloud(),
+                             Sliding{speed});
     const auto error_at = [&](double tau) {
       advance(fluid, tau / viscosity);
       return error(fluid, along, [&](double y) { return speed * couette(y, tau); });
@@ -72,11 +64,10 @@ TEST_CASE("Couette flow starts and settles as the series says", "[viscous]") {
 TEST_CASE("what a sliding wall spends on friction is energy of the gas", "[viscous]") {
   const Plan plan{16};
   const auto balance = [&](double cfl) {
-    Gas<NoSlip> gas = isothermal();
+    auto gas = isothermal<Gas<NoSlip>>(viscosity);
     gas.wall.isothermal = false;
     auto cloud = plan.cloud();
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (cloud.set[i] == sphmbs::particles::gas) cloud.v[i][0] = speed * cloud.r[i][1];
+    shear(cloud, speed);
     Fluid<Gas<NoSlip>> fluid(gas, plan.domain(), cloud, Sliding{speed});
     const double before = energy(fluid);
     const double time = 0.2 / viscosity;

@@ -27,12 +27,7 @@ using sphmbs::boundary::NoSlip;
 constexpr double diffusivity = 2e-3;  // by height times sound speed
 constexpr double share = 1e-3;        // of temperature by which gas differs at first
 
-Gas<NoSlip> conducting(double alpha) {
-  return {.eos = unit_gas(),
-          .background = pressure,
-          .wall = {.isothermal = true},
-          .stress = {.viscosity = prandtl * alpha, .conductivity = heat_capacity * alpha}};
-}
+Gas<NoSlip> conducting(double alpha) { return isothermal<Gas<NoSlip>>(prandtl * alpha); }
 
 /// Temperature of gas that was warmer by one everywhere, at alpha time / height^2.
 double cooling(double y, double tau) {
@@ -146,8 +141,7 @@ TEST_CASE("the heat of friction leaves through the walls", "[viscous][slow]") {
   for (const int rows : {8, 16, 32}) {
     const Plan plan{rows, 1.5};
     auto cloud = plan.cloud();
-    for (std::size_t i = 0; i < cloud.size(); ++i)
-      if (cloud.set[i] == sphmbs::particles::gas) cloud.v[i][0] = speed * cloud.r[i][1];
+    shear(cloud, speed);
     Fluid<Gas<NoSlip>> fluid(conducting(alpha), plan.domain(), cloud, Sliding{speed});
     advance(fluid, 1 / alpha);
     const double steep = viscosity * speed * speed / (2 * heat_capacity * alpha);

@@ -28,15 +28,11 @@ double poiseuille(double y, double tau) {
   return u;
 }
 
-/// Walls of one temperature keep the heat of friction from thinning the gas near them: adiabatic
-/// ones do so by some percent in this time.
 template <class Gas>
 Gas driven() {
-  return {.eos = unit_gas(),
-          .acceleration = {drive, 0},
-          .background = pressure,
-          .wall = {.isothermal = true},
-          .stress = {.viscosity = viscosity, .conductivity = heat_capacity * viscosity / prandtl}};
+  Gas gas = isothermal<Gas>(viscosity);
+  gas.acceleration = {drive, 0};
+  return gas;
 }
 
 }  // namespace
