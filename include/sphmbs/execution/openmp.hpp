@@ -7,6 +7,7 @@
 
 #include <sphmbs/core/pack.hpp>
 #include <sphmbs/execution/execution_policy.hpp>
+#include <sphmbs/execution/host_loop.hpp>
 #include <sphmbs/execution/host_memory.hpp>
 
 namespace sphmbs::execution {
@@ -23,8 +24,10 @@ struct OpenMP : HostMemory {
     // Short chunks handed out on demand even out walls, edges and disturbances by other programs.
     const std::size_t even = n / (16 * static_cast<std::size_t>(concurrency()));
     const std::size_t chunk = even < 1 ? 1 : even > 256 ? 256 : even;
-#pragma omp parallel for schedule(dynamic, chunk)
-    for (std::size_t i = 0; i < n; ++i) body(i);
+    const std::size_t chunks = (n + chunk - 1) / chunk;
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t c = 0; c < chunks; ++c)
+      run_range(body, c * chunk, c + 1 < chunks ? (c + 1) * chunk : n);
   }
 
   static int concurrency() { return omp_get_max_threads(); }

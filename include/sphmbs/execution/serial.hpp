@@ -3,6 +3,7 @@
 
 #include <sphmbs/core/pack.hpp>
 #include <sphmbs/execution/execution_policy.hpp>
+#include <sphmbs/execution/host_loop.hpp>
 #include <sphmbs/execution/host_memory.hpp>
 
 namespace sphmbs::execution {
@@ -15,7 +16,7 @@ struct Serial : HostMemory {
 
   template <LoopBody F>
   static void for_each(std::size_t n, const F& body) {
-    for (std::size_t i = 0; i < n; ++i) body(i);
+    run_range(body, 0, n);
   }
 
   static int concurrency() { return 1; }

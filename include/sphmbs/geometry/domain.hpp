@@ -39,6 +39,13 @@ struct Periodicity {
     return r;
   }
 
+  /// Whether all periods are at least so long [m].
+  bool fits(double shortest) const {
+    for (int k = 0; k < Dim; ++k)
+      if (length[k] > 0 && static_cast<double>(length[k]) < shortest) return false;
+    return true;
+  }
+
   /// True where a particle at r can have neighbours across the border within `reach`.
   SPHMBS_INLINE bool near_border(const Vec<Dim, T>& r, T reach) const {
     bool near = false;

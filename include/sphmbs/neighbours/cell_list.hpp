@@ -40,20 +40,22 @@ struct Zero {
   SPHMBS_INLINE void operator()(std::size_t i) const { count[i] = 0; }
 };
 
-/// Puts gas first in the lists of openings' particles, and ends them there.
-struct GasFirst {
+/// Ends lists where openings' particles meet others than gas: these see gas alone, and virtual
+/// particles do not see them. In an opening's lists the others come behind.
+struct CutAtOpenings {
   const std::uint8_t* set;
   const std::uint64_t* first;
   std::uint32_t* list;
   std::uint64_t* last;
   SPHMBS_INLINE void operator()(std::size_t a) const {
-    if (!particles::is_opening(set[a])) return;
+    if (set[a] == particles::gas) return;
+    const bool opens = particles::is_opening(set[a]);
     std::uint64_t end = first[a];
     for (std::uint64_t k = first[a]; k < last[a]; ++k) {
-      if (set[list[k]] != particles::gas) continue;
-      const std::uint32_t other = list[end];
-      list[end++] = list[k];
-      list[k] = other;
+      const std::uint32_t b = list[k];
+      if (opens ? set[b] != particles::gas : particles::is_opening(set[b])) continue;
+      list[k] = list[end];
+      list[end++] = b;
     }
     last[a] = end;
   }
@@ -133,7 +135,7 @@ class CellList {
       Policy::for_each(n, detail::EndAtNext{first_.data(), last_.data()});
     if (particles.has_openings())
       Policy::for_each(
-          n, detail::GasFirst{find.fields.set, first_.data(), list_.data(), last_.data()});
+          n, detail::CutAtOpenings{find.fields.set, first_.data(), list_.data(), last_.data()});
   }
 
   NeighbourView view() const {

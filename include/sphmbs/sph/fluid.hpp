@@ -14,11 +14,11 @@
 #include <sphmbs/sph/list_schedule.hpp>
 #include <sphmbs/sph/openings.hpp>
 #include <sphmbs/sph/rates.hpp>
-#include <sphmbs/sph/slopes.hpp>
 #include <sphmbs/sph/stages.hpp>
 #include <sphmbs/sph/statistics.hpp>
 #include <sphmbs/sph/survey.hpp>
 #include <sphmbs/sph/totals.hpp>
+#include <sphmbs/sph/vicinities.hpp>
 #include <sphmbs/time/integrator.hpp>
 
 namespace sphmbs::sph {
@@ -58,7 +58,7 @@ class Fluid {
     scheme.check();
     domain.check();
     if constexpr (Scheme::Wall::surfaces) cloud.require_surfaces();
-    forget_vicinities();
+    vicinities_.resize(size());
     const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
     neighbours::check_reach(domain, {Scheme::Kernel::support, 0, h_max});
   }
@@ -69,8 +69,7 @@ class Fluid {
   ///         positive, or particles could move by more than they reach.
   void stage(double scale, double dt) {
     write_records(scale, dt);
-    const double surplus = motion_surplus<Policy>(advance(0, dt), size());
-    lists_.staged(dt, surplus);
+    lists_.staged(dt, motion_surplus<Policy>(advance(0, dt), size()));
     if (!lists_.outdated(dt)) return;
     rebuild_lists(dt);
     write_records(scale, dt);
@@ -80,14 +79,9 @@ class Fluid {
   void rates(double keep) {
     const Gathered<T> from{search_.view(), particles_.records(), vicinities_.data()};
     const auto border = static_cast<T>(lists_.reach().largest());
-    if constexpr (Scheme::vicinity) {
+    {
       const auto timer = statistics_.time(Phase::slopes);
-      Policy::for_each(size(), EvaluateSlopes<Scheme, T, Policy::template lanes<T>>{
-                                   .space = space_,
-                                   .from = from,
-                                   .set = particles_.fields().set,
-                                   .vicinities = vicinities_.data(),
-                                   .border = border});
+      vicinities_.evaluate(space_, from, particles_, border);
     }
     {
       const auto timer = statistics_.time(Phase::rates);
@@ -99,9 +93,7 @@ class Fluid {
                                    .rates = particles_.rates(),
                                    .keep = static_cast<T>(keep),
                                    .border = border});
-      if (openings_.any())
-        openings_.rates(space_, {search_.whole(), particles_.records(), nullptr}, particles_,
-                        static_cast<T>(keep), border);
+      openings_.rates(space_, search_.whole(), particles_, static_cast<T>(keep), border);
     }
     const auto timer = statistics_.time(Phase::survey);
     weight_ = keep * weight_ + 1;
@@ -126,8 +118,7 @@ class Fluid {
     exchange_.committed(scale);
     ++statistics_.steps;
     lists_.stepped(dt, surplus);
-    if (openings_.any() && (openings_.moved(survey_.fastest_move() * dt) || lists_.outdated(0)))
-      let_pass();
+    if (openings_.moved(survey_.fastest_move() * dt, lists_.outdated(0))) let_pass();
   }
 
   /// Time of the state y [s].
@@ -147,9 +138,8 @@ class Fluid {
   /// What the gas has received from walls, bodies and the body force.
   const Exchange<dim>& exchange() const { return exchange_; }
 
-  /// What has passed each opening, in the order they were added. With what the exchange says it
-  /// balances the gas's own sums. Particles pass when neighbour lists are made or they have gone a
-  /// quarter of their smoothing length, not at once.
+  /// What has passed each opening, in the order they were added, as far as its particles changed
+  /// hands: before they are a quarter of their smoothing length beyond the face.
   std::span<const Traffic<dim>> traffic() const { return openings_.traffic(); }
 
   /// Sums over the state y.
@@ -163,11 +153,9 @@ class Fluid {
   Vec<dim> force_on(int set) {
     expects(set >= 1 && set < particles::first_opening, "set of virtual particles", set,
             "1 to 191");
-    return execution::reduce<Policy>(
-               size(), Force<dim>{},
-               ForceOnParticle<dim, T>{particles_.fields(), particles_.rates(),
-                                       static_cast<std::uint8_t>(set)})
-        .f;
+    const ForceOnParticle<dim, T> force{particles_.fields(), particles_.rates(),
+                                        static_cast<std::uint8_t>(set)};
+    return execution::reduce<Policy>(size(), Force<dim>{}, force).f;
   }
 
   /// The gas at a point, at the last stage.
@@ -182,8 +170,7 @@ class Fluid {
   /// the first stage.
   particles::Particles<dim, T, Policy>& particles() { return particles_; }
 
-  /// For particles::load_vicinity: slopes of gas particles and surfaces of virtual ones at the last
-  /// evaluation of the rates, where the scheme needs them; else null.
+  /// See Vicinities; as they were at the last evaluation of the rates.
   const T* vicinities() const { return vicinities_.data(); }
 
   /// Memory held [bytes].
@@ -197,19 +184,12 @@ class Fluid {
     return cloud;
   }
 
-  // Those that no loop writes, of virtual particles without a state, are zero.
-  void forget_vicinities() {
-    if constexpr (Scheme::vicinity)
-      vicinities_ =
-          execution::Field<T, Policy>(std::vector<T>(size() * particles::slopes_size<dim>));
-  }
-
   void let_pass() {
     const auto timer = statistics_.time(Phase::neighbours);
     const Traffic<dim> passed = openings_.pass(scheme_.eos, particles_);
     gas_count_ += passed.in.particles - passed.out.particles;
     gas_mass_ += passed.in.mass - passed.out.mass;
-    forget_vicinities();
+    vicinities_.resize(size());
     lists_.forget();
   }
 
@@ -230,15 +210,11 @@ class Fluid {
   void rebuild_lists(double dt) {
     const auto timer = statistics_.time(Phase::neighbours);
     ++statistics_.rebuilds;
-    const auto fields = particles_.fields();
-    const Largest widest =
-        execution::reduce<Policy>(size(), Largest{}, SmoothingLength<T>{fields.h, fields.id});
-    const double h_max = widest.h;
-    for (int k = 0; k < dim; ++k)
-      if (space_.length[k] > 0 && space_.length[k] < 2 * Scheme::Kernel::support * h_max)
-        fail("a period is shorter than two support radii", widest.id, dt);
-    const auto reach = lists_.plan(dim, Scheme::Kernel::support, h_max, dt);
-    if (reach.skin > reach.support * h_max)
+    const Largest widest = widest_particle<Policy>(particles_);
+    const auto reach = lists_.plan(dim, Scheme::Kernel::support, widest.h, dt);
+    if (!space_.fits(2 * reach.support * widest.h))
+      fail("a period is shorter than two support radii", widest.id, dt);
+    if (reach.skin > reach.support * widest.h)
       fail("particles may pass each other unseen within this step", step_limit(survey_, 1).id, dt);
     search_.rebuild(particles_, domain_, reach);
   }
@@ -263,7 +239,7 @@ class Fluid {
   Survey<dim> survey_;
   Statistics statistics_;
   execution::Field<std::uint32_t, Policy> culprit_{1};
-  execution::Field<T, Policy> vicinities_;  // slopes of gas and surfaces of virtual particles
+  Vicinities<Scheme, T, Policy> vicinities_;
   double time_ = 0;
   double last_dt_ = 0;
   double weight_ = 0;  // of all evaluations in the rates

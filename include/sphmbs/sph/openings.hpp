@@ -49,25 +49,29 @@ class Openings {
     if (!seen.empty()) views_ = View(seen);
   }
 
-  bool any() const { return !traffic_.empty(); }
   /// Particles in all zones.
   std::size_t particle_count() const { return particle_count_; }
   const std::vector<Traffic<dim>>& traffic() const { return traffic_; }
 
   /// k = keep k + f(stage) for the openings' particles.
-  void rates(const geometry::Periodicity<dim, T>& space, const Gathered<T>& from,
+  void rates(const geometry::Periodicity<dim, T>& space, const neighbours::NeighbourView& lists,
              particles::Particles<dim, T, Policy>& particles, T keep, T border) const {
-    const auto fields = particles.fields();
-    Policy::for_each(particles.size(),
-                     EvaluateOpening<Scheme, T, Policy::template lanes<T>>{
-                         space, from, views_.data(), fields.set, particles.rates(), keep, border});
+    if (traffic_.empty()) return;
+    Policy::for_each(particles.size(), EvaluateOpening<Scheme, T, Policy::template lanes<T>>{
+                                           space,
+                                           {lists, particles.records(), nullptr},
+                                           views_.data(),
+                                           particles.fields().set,
+                                           particles.rates(),
+                                           keep,
+                                           border});
   }
 
-  /// A step was taken in which no particle moved by more than `way` [m]. True when particles may
-  /// have passed a face by a quarter of their smoothing length.
-  bool moved(double way) {
+  /// A step was taken in which no particle moved by more than `way` [m]. True when particles are to
+  /// pass: some may be a quarter of their smoothing length beyond a face, or `lists` are made anew.
+  bool moved(double way, bool lists) {
     way_ += way;
-    return way_ > tolerance_;
+    return !traffic_.empty() && (lists || way_ > tolerance_);
   }
 
   /// Lets particles pass, and returns what came in and went out.

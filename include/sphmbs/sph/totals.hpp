@@ -2,7 +2,8 @@
 #pragma once
 
 #include <sphmbs/core/math.hpp>
-#include <sphmbs/particles/fields.hpp>
+#include <sphmbs/execution/reduce.hpp>
+#include <sphmbs/particles/particles.hpp>
 
 namespace sphmbs::sph {
 
@@ -64,6 +65,13 @@ struct SmoothingLength {
     return {static_cast<double>(h[i]), id[i]};
   }
 };
+
+template <class Policy, int Dim, class T>
+Largest widest_particle(particles::Particles<Dim, T, Policy>& particles) {
+  const auto fields = particles.fields();
+  return execution::reduce<Policy>(particles.size(), Largest{},
+                                   SmoothingLength<T>{fields.h, fields.id});
+}
 
 /// Force of the gas on one set of virtual particles: m times the acceleration that eq. (21) gives
 /// them from gas neighbours alone. For planar gas per metre of depth.

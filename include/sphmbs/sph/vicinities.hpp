@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include <sphmbs/sph/slopes.hpp>
+
+namespace sphmbs::sph {
+
+/// Slopes of gas particles and surfaces of virtual ones, for schemes that need them; see
+/// particles::load_vicinity.
+template <class Scheme, class T, execution::ExecutionPolicy Policy>
+class Vicinities {
+ public:
+  /// For n particles. Those that no loop writes, of virtual particles without a state, are zero.
+  void resize(std::size_t n) {
+    if constexpr (Scheme::vicinity)
+      stored_ = Stored(std::vector<T>(n * particles::slopes_size<Scheme::dim>));
+  }
+
+  /// Evaluates the slopes of a stage.
+  void evaluate(const geometry::Periodicity<Scheme::dim, T>& space, const Gathered<T>& from,
+                particles::Particles<Scheme::dim, T, Policy>& particles, T border) {
+    if constexpr (Scheme::vicinity)
+      Policy::for_each(particles.size(), EvaluateSlopes<Scheme, T, Policy::template lanes<T>>{
+                                             .space = space,
+                                             .from = from,
+                                             .set = particles.fields().set,
+                                             .vicinities = stored_.data(),
+                                             .border = border});
+  }
+
+  /// Null where the scheme needs none.
+  T* data() { return stored_.data(); }
+  const T* data() const { return stored_.data(); }
+  std::size_t bytes() const { return stored_.bytes(); }
+
+ private:
+  using Stored = execution::Field<T, Policy>;
+  Stored stored_;
+};
+
+}  // namespace sphmbs::sph
