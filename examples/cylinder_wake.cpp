@@ -16,8 +16,8 @@ using namespace sphmbs;
 struct Wake {
   double reynolds = 100;
   double mach = 0.2;
-  double upstream = 8;     // from the inlet to the cylinder [m]
-  double downstream = 20;  // from the cylinder to the outlet [m]
+  double upstream = 6;     // from the inlet to the cylinder [m]
+  double downstream = 14;  // from the cylinder to the outlet [m]
   double width = 20;       // from one cylinder to the next [m]
 };
 
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "cylinder_wake",
                                       .title = "wake of a circular cylinder in a stream",
                                       .backends = examples::backends(),
-                                      .defaults = {.spacing = 0.125, .until = 80, .cfl = 0.4}});
+                                      .defaults = {.spacing = 0.0625, .until = 60, .cfl = 0.4}});
   std::string scheme = "best";
   Wake wake;
   examples::add_scheme(command_line, scheme);

@@ -38,7 +38,11 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
         settings.step ? "fixed at " + format_exact(*settings.step) + " s; " : "";
     return {{"particles",
              format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
-                 format_count(static_cast<std::int64_t>(fluid_.virtual_count())) + " virtual",
+                 format_count(static_cast<std::int64_t>(fluid_.virtual_count())) + " virtual" +
+                 (fluid_.opening_count() > 0
+                      ? " + " + format_count(static_cast<std::int64_t>(fluid_.opening_count())) +
+                            " in openings"
+                      : ""),
              "memory " + format_bytes(fluid_.bytes()) + ", " +
                  std::to_string(fluid_.bytes() / fluid_.size()) + " B/particle"},
             {"run", "until " + format_exact(settings.until) + " s",
@@ -82,13 +86,16 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
                    static_cast<std::int64_t>(fluid_.virtual_count())};
     s.steps = static_cast<std::int64_t>(done.steps);
     s.pair_interactions = static_cast<std::int64_t>(done.pair_interactions);
-    s.conservation.mass = (end.mass - start_.mass) / start_.mass;
-    const Vec<dim> gained = end.momentum - start_.momentum - received.impulse();
+    auto passed = sph::Passed<dim>{};  // into the gas, less what went out
+    for (const auto& opening : fluid_.traffic()) passed.combine(opening.net());
+    s.conservation.mass = (end.mass - start_.mass - passed.mass) / start_.mass;
+    const Vec<dim> gained = end.momentum - start_.momentum - received.impulse() - passed.momentum;
     s.conservation.momentum =
         std::sqrt(norm2(gained)) / std::sqrt(2 * end.mass * (end.kinetic + end.internal));
     const double energy = end.energy() + end.virtual_internal - start_.energy() -
-                          start_.virtual_internal - received.body_work() - received.driving_work() +
-                          fluid_.scheme().background * (end.volume - start_.volume);
+                          start_.virtual_internal - received.body_work() - received.driving_work() -
+                          passed.energy +
+                          fluid_.scheme().background * (end.volume - start_.volume - passed.volume);
     s.conservation.energy = energy / (start_.energy() + start_.virtual_internal);
   }
 

@@ -30,6 +30,12 @@ struct Traffic {
   Passed<Dim> in;
   Passed<Dim> out;
 
+  /// What came in less what went out; `particles` counts both.
+  Passed<Dim> net() const {
+    return {in.particles + out.particles, in.mass - out.mass, in.volume - out.volume,
+            in.momentum - out.momentum, in.energy - out.energy};
+  }
+
   SPHMBS_INLINE void combine(const Traffic& o) {
     in.combine(o.in);
     out.combine(o.out);
