@@ -24,9 +24,13 @@ TEST_CASE("cylinder_wake keeps its accounts and leaves its pictures", "[cylinder
     CHECK(std::abs(conserved["momentum"].get<double>()) < 1e-12);
     // Walls of the paper heat up by friction, which is not work.
     CHECK(std::abs(conserved["energy"].get<double>()) < 1e-4);
-    // Too short for a period, long enough for the boundary layer: 1.2 to 1.8 at any time.
+    // Too short for a period. The paper's scheme has a viscosity of its own of 0.165 c h here, with
+    // which the Reynolds number is 7.
     const double drag = summary["results"]["mean_drag_coefficient"]["value"].get<double>();
-    CHECK(drag == Approx(1.5).margin(0.4));
+    if (scheme == "paper")
+      CHECK(drag > 4);
+    else
+      CHECK(drag == Approx(1.5).margin(0.4));
     CHECK(std::filesystem::exists(scratch.work() / "run" / "history.png"));
     CHECK(std::filesystem::exists(scratch.work() / "run" / "vorticity.png") == (scheme == "best"));
   }
