@@ -41,23 +41,40 @@ struct Zero {
 };
 
 /// Ends lists where openings' particles meet others than gas: these see gas alone, and virtual
-/// particles do not see them. In an opening's lists the others come behind.
+/// particles do not see them. In an opening's list its own particles come behind the gas, up to
+/// `whole`.
 struct CutAtOpenings {
   const std::uint8_t* set;
   const std::uint64_t* first;
   std::uint32_t* list;
   std::uint64_t* last;
+  std::uint64_t* whole;
   SPHMBS_INLINE void operator()(std::size_t a) const {
+    whole[a] = last[a];
     if (set[a] == particles::gas) return;
-    const bool opens = particles::is_opening(set[a]);
-    std::uint64_t end = first[a];
-    for (std::uint64_t k = first[a]; k < last[a]; ++k) {
-      const std::uint32_t b = list[k];
-      if (opens ? set[b] != particles::gas : particles::is_opening(set[b])) continue;
-      list[k] = list[end];
-      list[end++] = b;
+    if (particles::is_virtual(set[a])) {
+      last[a] =
+          gather(first[a], last[a], [&](std::uint8_t s) { return !particles::is_opening(s); });
+      return;
     }
-    last[a] = end;
+    const std::uint64_t end = last[a];
+    last[a] = gather(first[a], end, [](std::uint8_t s) { return s == particles::gas; });
+    whole[a] = gather(last[a], end, [&](std::uint8_t s) { return s == set[a]; });
+  }
+
+ private:
+  // Puts those that `stay` says first; returns where they end.
+  template <class Stay>
+  SPHMBS_INLINE std::uint64_t gather(std::uint64_t begin, std::uint64_t end,
+                                     const Stay& stay) const {
+    std::uint64_t to = begin;
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const std::uint32_t b = list[k];
+      if (!stay(set[b])) continue;
+      list[k] = list[to];
+      list[to++] = b;
+    }
+    return to;
   }
 };
 
@@ -133,9 +150,10 @@ class CellList {
       shield(particles, find.space, first_.data(), list_.data(), pairs, last_.data());
     else
       Policy::for_each(n, detail::EndAtNext{first_.data(), last_.data()});
-    if (particles.has_openings())
-      Policy::for_each(
-          n, detail::CutAtOpenings{find.fields.set, first_.data(), list_.data(), last_.data()});
+    if (!particles.has_openings()) return;
+    whole_.resize_discarding(n);
+    Policy::for_each(n, detail::CutAtOpenings{find.fields.set, first_.data(), list_.data(),
+                                              last_.data(), whole_.data()});
   }
 
   NeighbourView view() const {
@@ -143,12 +161,13 @@ class CellList {
     return {first_.data(), cut ? last_.data() : first_.data() + 1, list_.data()};
   }
 
-  /// The same with all neighbours of openings' particles, gas first; `view` ends at the gas.
-  NeighbourView whole() const { return {first_.data(), first_.data() + 1, list_.data()}; }
+  /// The same, and in the lists of openings' particles also others of the same opening, which
+  /// `view` leaves out. Only where there are openings.
+  NeighbourView whole() const { return {first_.data(), whole_.data(), list_.data()}; }
 
   /// Memory held [bytes].
   std::size_t bytes() const {
-    return first_.bytes() + list_.bytes() + cell_first_.bytes() + last_.bytes();
+    return first_.bytes() + list_.bytes() + cell_first_.bytes() + last_.bytes() + whole_.bytes();
   }
 
  private:
@@ -171,6 +190,7 @@ class CellList {
   execution::Field<std::uint32_t, Policy> cell_first_;
   execution::Field<std::uint64_t, Policy> first_;
   execution::Field<std::uint32_t, Policy> list_;
+  execution::Field<std::uint64_t, Policy> whole_;
   execution::Field<std::uint64_t, Policy> last_;  // where lists end that do not fill their place
 };
 

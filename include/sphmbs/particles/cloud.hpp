@@ -25,7 +25,7 @@ struct Cloud {
   std::vector<double> p;          // [Pa]
   std::vector<double> h;          // [m]
   std::vector<double> m;          // [kg]; planar [kg/m]
-  std::vector<std::uint8_t> set;  // gas, or the number of a set of virtual particles
+  std::vector<std::uint8_t> set;  // gas, the number of a set of virtual particles, or an opening's
   std::vector<Vec<Dim>> normal;  // of the surface before a virtual particle; zero where unknown [-]
   std::vector<double> depth;     // of a virtual particle below that surface [m]
   std::vector<std::uint8_t> sheet;     // what a virtual particle is of a thin body
@@ -119,23 +119,27 @@ struct Cloud {
   }
 
   /// Adds an opening and the particles that fill its zone, and returns its number, from 0 on. They
-  /// start with the far gas's state, move with their own velocity, and take part as gas does: one
-  /// that passes the face becomes gas, and gas that passes it joins the zone. At the far end
-  /// particles vanish, and those that move away from there are followed by others one spacing
-  /// behind. The zone must be as deep as gas sees.
-  /// @throws InvalidInput as `add_gas`, for a bad opening, or if there are 32 openings already.
+  /// start with the far gas's state and take part as gas does: one that passes the face becomes
+  /// gas, and gas that passes it joins the zone. At the far end particles vanish, and where a place
+  /// behind one becomes free another one follows. The zone must be as deep as gas sees.
+  /// @throws InvalidInput as `add_gas`, for a bad opening, for no points or points outside its
+  /// zone,
+  ///         or if there are 64 openings already.
   int add_opening(const Opening<Dim>& opening, const std::vector<Vec<Dim>>& points,
                   const Resolution& resolution) {
     opening.check();
-    constexpr int most = (256 - first_opening) / 2;
+    resolution.check();
+    constexpr int most = 256 - first_opening;
     const int number = static_cast<int>(openings.size());
     expects(number < most, "openings", number + 1, "at most " + std::to_string(most));
-    add(points, opening.far, resolution, opening_set(number, false));
+    expects(!points.empty(), "points of an opening", points.size(), "at least one");
+    for (const Vec<Dim>& x : points)
+      for (int k = 0; k < Dim; ++k)
+        expects(opening.holds(x, -1e-6 * resolution.spacing), "place of an opening's point", x[k],
+                "inside its zone [m]");
+    add(points, opening.far, resolution, opening_set(number));
     openings.push_back(opening);
-    openings.back().spacing = resolution.spacing;
-    for (std::size_t i = size() - points.size(); i < size(); ++i)
-      if (openings.back().depth(r[i]) > opening.length() - resolution.spacing)
-        set[i] = opening_set(number, true);
+    openings.back().resolution = resolution;
     return number;
   }
 

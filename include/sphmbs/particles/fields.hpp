@@ -15,18 +15,16 @@ inline constexpr std::uint8_t no_sheet = 0;
 inline constexpr std::uint8_t sheet_layer = 1;
 inline constexpr std::uint8_t sheet_patch = 2;
 
-/// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ..., and each
-/// opening the next two from `first_opening` on: its particles, and those at its far end that no
-/// other follows yet.
+/// Set number of gas particles; virtual particles (walls and bodies) have sets 1, 2, ..., openings
+/// those from `first_opening` on.
 inline constexpr std::uint8_t gas = 0;
 inline constexpr int first_opening = 192;
 
 SPHMBS_INLINE constexpr bool is_opening(std::uint8_t set) { return set >= first_opening; }
 SPHMBS_INLINE constexpr bool is_virtual(std::uint8_t set) { return set != gas && !is_opening(set); }
-SPHMBS_INLINE constexpr int opening_of(std::uint8_t set) { return (set - first_opening) / 2; }
-SPHMBS_INLINE constexpr bool is_last(std::uint8_t set) { return is_opening(set) && set % 2 == 1; }
-SPHMBS_INLINE constexpr std::uint8_t opening_set(int opening, bool last) {
-  return static_cast<std::uint8_t>(first_opening + 2 * opening + (last ? 1 : 0));
+SPHMBS_INLINE constexpr int opening_of(std::uint8_t set) { return set - first_opening; }
+SPHMBS_INLINE constexpr std::uint8_t opening_set(int opening) {
+  return static_cast<std::uint8_t>(first_opening + opening);
 }
 
 /// The state at the beginning of the step, as pointers that loop bodies see. Planar gas is per
@@ -43,8 +41,9 @@ struct FieldsView {
   T* depth;        // of a virtual particle below its surface [m]; null if none
   T* patch;        // width of the patch of a thin body that a virtual particle is [m]; null if none
   std::uint8_t* sheet;  // what a virtual particle is of a thin body; null if there is none
-  std::uint32_t* id;    // place in the initial cloud; never changes
-  std::uint8_t* set;    // gas, which set of virtual particles, or which opening
+  std::uint32_t*
+      id;  // place in the initial cloud, or later ones for gas that comes in; never changes
+  std::uint8_t* set;  // gas, which set of virtual particles, or which opening
 
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }

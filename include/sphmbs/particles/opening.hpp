@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include <sphmbs/particles/state.hpp>
 
@@ -15,19 +16,23 @@ struct Opening {
   Vec<Dim> lower;   // corners of the zone [m]
   Vec<Dim> upper;   //
   int axis;         // across the face
-  int side;         // 1: the gas lies beyond the zone's upper end along the axis, -1: its lower end
-  State<Dim> far;   // what waves that come in bring, and what gas that comes in was
+  int side;         // 1: gas lies beyond the zone's upper end along the axis, -1: its lower end
+  State<Dim> far;   // of gas that comes in; where it flows outwards its velocity is not used
   double distance;  // of the far gas, over which pressures even out [m]
-  double spacing = 0;  // of its particles, set by Cloud::add_opening [m]
+  Resolution resolution{};  // of its particles, set by Cloud::add_opening
 
   /// From the face to the far end of the zone [m].
   double length() const { return upper[axis] - lower[axis]; }
-  /// How far behind the face a point is [m].
-  double depth(const Vec<Dim>& x) const {
-    return side > 0 ? upper[axis] - x[axis] : x[axis] - lower[axis];
+
+  /// Whether a point is in the zone, by more than `margin` [m].
+  bool holds(const Vec<Dim>& x, double margin) const {
+    bool inside = true;
+    for (int k = 0; k < Dim; ++k)
+      inside = inside && x[k] > lower[k] + margin && x[k] < upper[k] - margin;
+    return inside;
   }
 
-  /// @throws InvalidInput for a far state, corners, an axis or a side that are none.
+  /// @throws InvalidInput for a far state, corners, an axis, a side or a distance that are none.
   void check() const {
     far.check();
     expects(distance > 0, "distance of the far gas", distance, "positive [m]");
@@ -50,11 +55,14 @@ struct OpeningView {
   int axis;
   T side;
   T distance;     // of the far gas [m]
-  T spacing;      // of the particles [m]
+  T spacing;      // of particles in the far gas [m]
+  T h;            // their smoothing length [m]
+  T m;            // their mass [kg]
   T rho;          // of the far gas [kg/m^3]
   T p;            // [Pa]
   T e;            // [J/kg]
-  Vec<Dim, T> v;  // [m/s]
+  T c;            // [m/s]
+  Vec<Dim, T> v;  // with which it comes in [m/s]
 
   /// The component of a vector across the face, into the gas.
   template <class N>
@@ -70,10 +78,15 @@ struct OpeningView {
 
   /// How far a point is out of the zone along another axis than its own; 0 where it is not [m].
   SPHMBS_INLINE T beside(const Vec<Dim, T>& r, int k) const {
-    return k == axis          ? T(0)
-           : r[k] < lower[k]  ? r[k] - lower[k]
-           : r[k] >= upper[k] ? r[k] - upper[k]
-                              : T(0);
+    if (k == axis) return T(0);
+    return r[k] < lower[k] ? r[k] - lower[k] : r[k] >= upper[k] ? r[k] - upper[k] : T(0);
+  }
+
+  /// Density of the far gas brought to another pressure along an isentrope, of which this form
+  /// keeps the slope and never turns negative.
+  SPHMBS_INLINE T density(T pressure) const {
+    const T denser = (pressure - p) / (rho * c * c);
+    return denser > T(0) ? rho * (T(1) + denser) : rho / (T(1) - denser);
   }
 };
 

@@ -10,11 +10,11 @@ namespace sphmbs::sph {
 template <int Dim>
 class Exchange {
  public:
-  /// From virtual particles and the body force [kg m/s]. It equals the change of the gas's momentum
-  /// to rounding.
+  /// From virtual particles, particles of openings and the body force [kg m/s]. With what passes
+  /// openings it equals the change of the gas's momentum to rounding.
   const Vec<Dim>& impulse() const { return impulse_; }
-  /// Work of moving virtual particles on the gas, -int sum f.v dt with f the force of the gas on
-  /// them [J].
+  /// Work of moving virtual particles and of particles of openings on the gas, -int sum f.v dt with
+  /// f the force of the gas on them [J].
   double wall_work() const { return wall_work_; }
   /// Work of whatever drives the virtual particles: on the gas, and against the other virtual
   /// particles. With the body force's it equals the change of the energy of gas and virtual

@@ -93,7 +93,7 @@ class Fluid {
                                    .rates = particles_.rates(),
                                    .keep = static_cast<T>(keep),
                                    .border = border});
-      openings_.rates(space_, search_.whole(), particles_, static_cast<T>(keep), border);
+      openings_.rates(scheme_, space_, search_.whole(), particles_, static_cast<T>(keep), border);
     }
     const auto timer = statistics_.time(Phase::survey);
     weight_ = keep * weight_ + 1;
@@ -138,8 +138,8 @@ class Fluid {
   /// What the gas has received from walls, bodies and the body force.
   const Exchange<dim>& exchange() const { return exchange_; }
 
-  /// What has passed each opening, in the order they were added, as far as its particles changed
-  /// hands: before they are a quarter of their smoothing length beyond the face.
+  /// What has passed each opening, in the order they were added. Particles pass in groups, at about
+  /// a quarter of the smallest smoothing length beyond the face.
   std::span<const Traffic<dim>> traffic() const { return openings_.traffic(); }
 
   /// Sums over the state y.
@@ -170,7 +170,7 @@ class Fluid {
   /// the first stage.
   particles::Particles<dim, T, Policy>& particles() { return particles_; }
 
-  /// See Vicinities; as they were at the last evaluation of the rates.
+  /// See Vicinities; from an evaluation of the rates to the end of the step.
   const T* vicinities() const { return vicinities_.data(); }
 
   /// Memory held [bytes].
@@ -186,7 +186,7 @@ class Fluid {
 
   void let_pass() {
     const auto timer = statistics_.time(Phase::neighbours);
-    const Traffic<dim> passed = openings_.pass(scheme_.eos, particles_);
+    const Traffic<dim> passed = openings_.pass(scheme_.eos, space_, search_.whole(), particles_);
     gas_count_ += passed.in.particles - passed.out.particles;
     gas_mass_ += passed.in.mass - passed.out.mass;
     vicinities_.resize(size());

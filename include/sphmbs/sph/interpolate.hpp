@@ -9,8 +9,9 @@
 
 namespace sphmbs::sph {
 
-/// The gas at a point, eq. (8) with gas particles only and divided by the sum of their weights, so
-/// that a uniform field is met next to walls too. NaN throughout where no gas particle is seen.
+/// The gas at a point, eq. (8) with particles of gas and openings only and divided by the sum of
+/// their weights, so that a uniform field is met next to walls too. NaN throughout where no gas
+/// particle is seen.
 template <int Dim>
 struct Sample {
   Vec<Dim> v;  // velocity [m/s]

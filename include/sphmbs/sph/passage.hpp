@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/geometry/domain.hpp>
+#include <sphmbs/neighbours/neighbour_search.hpp>
 #include <sphmbs/particles/fields.hpp>
 #include <sphmbs/particles/opening.hpp>
 
@@ -30,10 +32,10 @@ struct Traffic {
   Passed<Dim> in;
   Passed<Dim> out;
 
-  /// What came in less what went out; `particles` counts both.
+  /// What came in less what went out, without their number.
   Passed<Dim> net() const {
-    return {in.particles + out.particles, in.mass - out.mass, in.volume - out.volume,
-            in.momentum - out.momentum, in.energy - out.energy};
+    return {0, in.mass - out.mass, in.volume - out.volume, in.momentum - out.momentum,
+            in.energy - out.energy};
   }
 
   SPHMBS_INLINE void combine(const Traffic& o) {
@@ -46,12 +48,6 @@ namespace detail {
 
 /// What becomes of a particle at an opening.
 enum class Fate : std::uint8_t { stays, enters, leaves, is_followed, vanishes };
-
-template <int Dim, class T>
-struct OpeningsView {
-  const particles::OpeningView<Dim, T>* opening;
-  int count;
-};
 
 template <int Dim, class T>
 struct GasState {
@@ -69,33 +65,27 @@ SPHMBS_INLINE GasState<Dim, T> next_to(const Eos& eos, const particles::FieldsVi
   const T Z = fields.rho[i] * static_cast<T>(eos.sound_speed(fields.rho[i], p));
   const T leaving = p - Z * o.along(fields.velocity(i));
   const T coming = o.p + Z * o.along(o.v);
-  const T c = static_cast<T>(eos.sound_speed(o.rho, o.p));
-  // Along an isentrope, of which this form keeps the slope and never turns negative.
-  const T denser = (T(0.5) * (leaving + coming) - o.p) / (o.rho * c * c);
-  GasState<Dim, T> state{denser > T(0) ? o.rho * (T(1) + denser) : o.rho / (T(1) - denser), T(0),
-                         o.v};
-  state.e = o.e + o.p / o.rho * (T(1) - o.rho / state.rho);
+  const T here = T(0.5) * (leaving + coming);
+  // Faster than sound nothing runs out against the stream, and no wave may leave a vacuum.
+  if (o.along(o.v) > o.c || !(here > T(0.01) * o.p)) return {o.rho, o.e, o.v};
+  GasState<Dim, T> state{o.density(here), T(0), o.v};
+  state.e = static_cast<T>(eos.internal_energy(state.rho, here));
   state.v[o.axis] = o.side * (coming - leaving) / (T(2) * Z);
   return state;
 }
 
-template <int Dim, class T>
-SPHMBS_INLINE void set_state(const particles::FieldsView<Dim, T>& fields, std::size_t i,
-                             const GasState<Dim, T>& state) {
-  fields.rho[i] = state.rho;
-  fields.e[i] = state.e;
-  fields.set_velocity(i, state.v);
-}
-
 /// Lets particles pass: an opening's that are beyond its face become gas, gas that is in a zone
-/// becomes the opening's, and what is beyond the far end will vanish. Those at the far end that
-/// have moved a spacing away from it are followed by others. Particles that flow out of a zone
-/// sideways come back at its other side.
+/// becomes the opening's. What is beyond a zone's far end will vanish, and of two particles in a
+/// zone that have come too near the later one. A particle of a zone with room behind it is
+/// followed. Particles that flow out of a zone sideways come back at its other side as far gas.
 template <int Dim, class T, class Eos>
 struct Pass {
   Eos eos;
-  particles::FieldsView<Dim, T> fields;
-  OpeningsView<Dim, T> openings;
+  geometry::Periodicity<Dim, T> space;
+  neighbours::NeighbourView lists;
+  particles::FieldsView<Dim, T> fields;  // as they were
+  const particles::OpeningView<Dim, T>* openings;
+  int count;
   Fate* fate;
   std::uint32_t* copies;   // none, itself, or itself and one that follows
   std::uint32_t* follows;  // 1 where one follows
@@ -103,60 +93,60 @@ struct Pass {
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const std::uint8_t set = fields.set[i];
     fate[i] = particles::is_virtual(set) ? Fate::stays
-              : set == particles::gas    ? of_gas(i)
-                                         : in_zone(i, particles::opening_of(set));
+              : set == particles::gas    ? (zone_of(i) < count ? Fate::leaves : Fate::stays)
+                                         : in_zone(i, openings[particles::opening_of(set)]);
     copies[i] = fate[i] == Fate::vanishes ? 0 : fate[i] == Fate::is_followed ? 2 : 1;
     follows[i] = fate[i] == Fate::is_followed ? 1 : 0;
   }
 
- private:
-  SPHMBS_INLINE Fate of_gas(std::size_t i) const {
+  /// The opening in whose zone a particle is, or `count`.
+  SPHMBS_INLINE int zone_of(std::size_t i) const {
     const Vec<Dim, T> r = fields.position(i);
-    for (int k = 0; k < openings.count; ++k) {
-      const auto& o = openings.opening[k];
-      const T inside = o.inside(r);
-      bool faces = inside < T(0) && inside >= -o.length();
-      for (int axis = 0; axis < Dim; ++axis) faces = faces && o.beside(r, axis) == T(0);
-      if (!faces) continue;
-      fields.set[i] = particles::opening_set(k, false);
-      return Fate::leaves;
+    for (int k = 0; k < count; ++k) {
+      const T inside = openings[k].inside(r);
+      bool in = inside < T(0) && inside >= -openings[k].length();
+      for (int axis = 0; axis < Dim; ++axis) in = in && openings[k].beside(r, axis) == T(0);
+      if (in) return k;
     }
-    return Fate::stays;
+    return count;
   }
 
-  SPHMBS_INLINE Fate in_zone(std::size_t i, int k) const {
-    const auto& o = openings.opening[k];
-    Vec<Dim, T> r = fields.position(i);
-    const T inside = o.inside(r);
+ private:
+  SPHMBS_INLINE Fate in_zone(std::size_t i, const particles::OpeningView<Dim, T>& o) const {
+    const T inside = o.inside(fields.position(i));
     if (inside >= T(0)) return Fate::enters;
     if (inside < -o.length()) return Fate::vanishes;
-    for (int axis = 0; axis < Dim; ++axis) {
-      const T beside = o.beside(r, axis);
-      if (beside == T(0)) continue;
-      r[axis] += (beside < T(0) ? T(1) : T(-1)) * (o.upper[axis] - o.lower[axis]);
-      fields.set_position(i, r);
-      set_state(fields, i, next_to(eos, fields, o, i));
-    }
-    const bool was_last = particles::is_last(fields.set[i]);
+    // Compressed along the stream alone: particles of a lattice keep their distance across it.
     const T spacing = o.spacing * o.rho / next_to(eos, fields, o, i).rho;
-    const bool last = inside < spacing - o.length();
-    fields.set[i] = particles::opening_set(k, last);
-    return was_last && !last ? Fate::is_followed : Fate::stays;
+    bool room = o.along(fields.velocity(i)) > T(0) && inside - spacing >= -o.length();
+    for (std::uint64_t k = lists.first[i]; k < lists.last[i]; ++k) {
+      const std::size_t j = lists.list[k];
+      if (fields.set[j] != fields.set[i]) continue;
+      Vec<Dim, T> d = space.nearest(fields.position(j) - fields.position(i));
+      const bool later = fields.id[i] > fields.id[j];
+      if (later && norm2(d) < T(0.16) * spacing * spacing) return Fate::vanishes;
+      // Two side by side do not both fill the place behind them.
+      const bool beside = later && norm2(d) < T(0.49) * spacing * spacing;
+      d[o.axis] += o.side * spacing;
+      room = room && !beside && norm2(d) >= T(0.49) * spacing * spacing;
+    }
+    return room ? Fate::is_followed : Fate::stays;
   }
 };
 
-/// What passes one opening. Those that enter have its set until they are copied.
-template <int Dim, class T>
+/// What passes one opening.
+template <int Dim, class T, class Eos>
 struct CountPassage {
-  particles::FieldsView<Dim, T> fields;
-  const Fate* fate;
+  Pass<Dim, T, Eos> pass;
   int opening;
 
   SPHMBS_INLINE Traffic<Dim> operator()(std::size_t i) const {
     Traffic<Dim> t;
-    const bool enters = fate[i] == Fate::enters;
-    if (!enters && fate[i] != Fate::leaves) return t;
-    if (particles::opening_of(fields.set[i]) != opening) return t;
+    const auto& fields = pass.fields;
+    const bool enters =
+        pass.fate[i] == Fate::enters && particles::opening_of(fields.set[i]) == opening;
+    const bool leaves = pass.fate[i] == Fate::leaves && pass.zone_of(i) == opening;
+    if (!enters && !leaves) return t;
     const double m = static_cast<double>(fields.m[i]);
     const Vec<Dim> v = fields.velocity(i).template to<double>();
     (enters ? t.in : t.out) = Passed<Dim>{1, m, m / static_cast<double>(fields.rho[i]), m * v,
@@ -177,31 +167,44 @@ struct Copy {
   }
 };
 
-/// Makes gas of the particles that entered, and of second copies those that follow.
+/// Makes of copies what they are to be: gas of those that entered, an opening's of those that left,
+/// and of second copies particles that follow.
 template <int Dim, class T, class Eos>
-struct Follow {
-  Eos eos;
-  particles::FieldsView<Dim, T> fields;  // of the copies
-  OpeningsView<Dim, T> openings;
+struct Become {
+  Pass<Dim, T, Eos> pass;  // with the fields of the copies
   const std::uint32_t* order;
-  const Fate* fate;
-  const std::uint32_t* rank;  // of the particle that is followed among all that are
   const std::uint32_t* first;
+  const std::uint32_t* rank;  // of the particle that is followed among all that are
   std::uint32_t next_id;
 
   SPHMBS_INLINE void operator()(std::size_t j) const {
     const std::uint32_t i = order[j];
-    if (fate[i] == Fate::enters) fields.set[j] = particles::gas;
-    if (fate[i] != Fate::is_followed || j == first[i]) return;
-    const int k = particles::opening_of(fields.set[j]);
-    const auto& o = openings.opening[k];
-    const GasState<Dim, T> state = next_to(eos, fields, o, j);
+    const auto& fields = pass.fields;
+    if (pass.fate[i] == Fate::enters) fields.set[j] = particles::gas;
+    if (pass.fate[i] == Fate::leaves) fields.set[j] = particles::opening_set(pass.zone_of(j));
+    if (!particles::is_opening(fields.set[j])) return;
+    const auto& o = pass.openings[particles::opening_of(fields.set[j])];
     Vec<Dim, T> r = fields.position(j);
-    r[o.axis] -= o.side * o.spacing * o.rho / state.rho;
+    const bool follows = pass.fate[i] == Fate::is_followed && j != first[i];
+    bool renewed = follows;
+    for (int k = 0; k < Dim; ++k) {
+      const T beside = o.beside(r, k);
+      renewed = renewed || beside != T(0);
+      if (beside != T(0)) r[k] += (beside < T(0) ? T(1) : T(-1)) * (o.upper[k] - o.lower[k]);
+    }
+    if (!renewed) return;
+    const GasState<Dim, T> state = next_to(pass.eos, fields, o, j);
+    const T ratio = o.rho / state.rho;  // of volumes
+    if (follows) {
+      r[o.axis] -= o.side * o.spacing * ratio;
+      fields.id[j] = next_id + rank[i];
+    }
     fields.set_position(j, r);
-    set_state(fields, j, state);
-    fields.set[j] = particles::opening_set(k, true);
-    fields.id[j] = next_id + rank[i];
+    fields.set_velocity(j, state.v);
+    fields.rho[j] = state.rho;
+    fields.e[j] = state.e;
+    fields.m[j] = o.m;
+    fields.h[j] = o.h * (T(1) + (ratio - T(1)) / T(Dim));
   }
 };
 

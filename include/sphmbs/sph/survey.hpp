@@ -32,7 +32,7 @@ struct Survey {
   std::uint64_t falls = 0;   // of them those whose reconstruction was refused
   Vec<Dim> wall_force = {};  // of the gas on all virtual particles and openings [N]
   double wall_power = 0;     // of the gas on virtual particles and openings, sum f.v [W]
-  double layer_power = 0;    // of virtual particles on each other, see RatesView [W]
+  double layer_power = 0;    // see RatesView; of openings heating too [W]
   Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
   Limit courant;             // h / (c + h |div v|)
   Limit acceleration;        // sqrt(h / |a|)

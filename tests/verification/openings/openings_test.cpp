@@ -12,6 +12,7 @@
 #include <sphmbs/sphmbs.hpp>
 
 #include "support/catch.hpp"
+#include "support/errors.hpp"
 #include "support/policies.hpp"
 #include "support/state.hpp"
 
@@ -55,12 +56,20 @@ struct Duct {
     d.periodic[0] = false;
     return d;
   }
-  /// Gas everywhere in the far state; the openings are the upstream and the downstream one.
-  particles::Cloud<Dim> cloud() const {
+  /// The openings are the upstream and the downstream one; or a wall is upstream.
+  particles::Cloud<Dim> cloud(const particles::State<Dim>& inside, bool wall = false) const {
     const geometry::Lattice<Dim> lattice{.spacing = dx, .origin = Vec<Dim>::all(dx / 2)};
     particles::Cloud<Dim> cloud;
-    cloud.add_gas(lattice.points(box(0, length), domain()), far, {dx});
+    cloud.add_gas(lattice.points(box(0, length), domain()), inside, {dx});
+    if (wall) {
+      auto beyond = geometry::Box<Dim>{box(-1, 0)};
+      beyond.lower -= Vec<Dim>::all(1.0);
+      beyond.upper += Vec<Dim>::all(1.0);
+      beyond.upper[0] = 0;
+      cloud.add_virtual(lattice.points(box(-depth(), 0), domain()), inside, {dx}, beyond);
+    }
     for (const int side : {1, -1}) {
+      if (wall && side > 0) continue;
       const auto zone = side > 0 ? box(-depth(), 0) : box(length, length + depth());
       cloud.add_opening({.lower = zone.lower,
                          .upper = zone.upper,
@@ -128,7 +137,8 @@ template <class Gas, class Policy>
 void check_stream(double mach, double tolerance) {
   constexpr int dim = Gas::dim;
   const Duct<dim> duct{.length = 1, .dx = 0.05, .far = stream<dim>(mach)};
-  sph::Fluid<Gas, Policy> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), duct.cloud());
+  sph::Fluid<Gas, Policy> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(),
+                                duct.cloud(duct.far));
   Balance balance(fluid);
   const std::size_t gas = fluid.gas_count();
   const double until = 3 / mach;
@@ -180,7 +190,7 @@ template <class Gas>
 double echo(double mach, double width, int direction) {
   const Duct<2> duct{.length = 3, .dx = 0.04, .far = stream<2>(mach), .distance = 30};
   constexpr double height = 1e-4;
-  auto cloud = duct.cloud();
+  auto cloud = duct.cloud(duct.far);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.set[i] != particles::gas) continue;
     const double s = height * std::exp(-std::pow((cloud.r[i][0] - 1.5) / width, 2));
@@ -295,31 +305,139 @@ TEMPLATE_LIST_TEST_CASE("a chamber with three openings keeps its accounts", "[ve
   const auto fields = fluid.particles().fields();
   const std::set<std::uint32_t> ids(fields.id, fields.id + fluid.size());
   CHECK(ids.size() == fluid.size());
-  std::printf("p %g in %g out %g %g\n", fluid.sample({0.9, 0.1}).p, fluid.traffic()[0].in.mass,
-              fluid.traffic()[1].out.mass, fluid.traffic()[2].out.mass);
 }
 
-TEST_CASE("a vessel empties to the pressure outside", "[verification]") {
-  Duct<2> duct{.length = 1, .dx = 0.05, .far = stream<2>(0)};
-  auto cloud = duct.cloud();
-  // Its first opening is walled up, and the gas is at a higher pressure and temperature.
-  cloud.openings.erase(cloud.openings.begin());
-  const double p = 1.3 * duct.far.p;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.set[i] == particles::gas || cloud.r[i][0] < 0) cloud.p[i] = p;
-    if (cloud.r[i][0] < 0) cloud.set[i] = 1;
-    if (cloud.r[i][0] > duct.length) cloud.set[i] = static_cast<std::uint8_t>(cloud.set[i] - 2);
+TEST_CASE("a hot vessel empties to the pressure outside", "[verification]") {
+  using Gas = sph::SmoothScheme<2>;
+  const Duct<2> duct{.length = 2, .dx = 0.05, .far = stream<2>(0)};
+  constexpr double ratio = 1.3;
+  for (const bool wall : {false, true}) {
+    CAPTURE(wall);
+    const auto cloud = duct.cloud({.rho = 1, .p = ratio * duct.far.p}, wall);
+    sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), cloud);
+    Balance balance(fluid);
+    run_until(fluid, 40);
+    CHECK(fluid.sample({1, 0.2}).p == Approx(duct.far.p).epsilon(0.01));
+    // Adiabatic: what is left has the density of its entropy.
+    CHECK(fluid.sample({1, 0.2}).rho == Approx(std::pow(1 / ratio, 1 / heat_ratio)).epsilon(0.03));
+    CHECK(fluid.totals().volume == Approx(duct.length * duct.width()).epsilon(0.05));
+    CHECK(balance.gap().mass < 1e-12);
+    CHECK(balance.gap().momentum < 1e-12);
   }
+}
+
+TEST_CASE("gas that comes in has the far gas's mass", "[verification][slow]") {
+  // Light gas goes out into heavy gas, which then comes back.
+  using Gas = sph::SmoothScheme<2>;
+  const Duct<2> duct{.length = 2, .dx = 0.05, .far = stream<2>(0.1)};
+  auto light = duct.far;
+  light.rho = 0.5;
+  light.v = {-0.5, 0};
+  sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), duct.cloud(light));
+  run_until(fluid, 80);
+  const auto& inlet = fluid.traffic()[0];
+  CHECK(inlet.out.particles > 10);
+  CHECK(fluid.totals().mass == Approx(duct.length * duct.width()).epsilon(0.03));
+  CHECK(departure(fluid, duct.far) < 0.05);
+}
+
+TEST_CASE("a stream turns round to that of the far gas", "[verification]") {
+  for (const double mach : {0.3, -0.3}) {
+    const Duct<2> duct{.length = 2, .dx = 0.05, .far = stream<2>(mach)};
+    auto inside = duct.far;
+    inside.v = -1.0 * duct.far.v;
+    inside.p *= 1.2;
+    using Gas = sph::PaperScheme<2>;
+    sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), duct.cloud(inside));
+    run_until(fluid, 40);
+    CHECK(departure(fluid, duct.far) < 0.01);
+  }
+}
+
+namespace {
+
+/// A wall that swings along x.
+struct Piston {
+  double stroke;
+  double frequency;  // [rad/s]
+  template <int Dim, class T>
+  Vec<Dim, T> position(int, const Vec<Dim, T>& r, double from, double to) const {
+    Vec<Dim, T> x = r;
+    x[0] += static_cast<T>(stroke * (std::cos(frequency * from) - std::cos(frequency * to)));
+    return x;
+  }
+  template <int Dim, class T>
+  Vec<Dim, T> velocity(int, const Vec<Dim, T>&, double t) const {
+    Vec<Dim, T> v = Vec<Dim, T>::all(T(0));
+    v[0] = static_cast<T>(stroke * frequency * std::sin(frequency * t));
+    return v;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a duct breathes through an opening", "[verification][slow]") {
+  using Gas = sph::SmoothScheme<2>;
+  const Duct<2> duct{.length = 1.5, .dx = 0.05, .far = stream<2>(0)};
+  constexpr double stroke = 0.1, frequency = 0.5, period = 2 * sphmbs::math::pi / frequency;
+  auto domain = duct.domain();
+  domain.box.lower[0] -= 1;
+  sph::Fluid<Gas, sphmbs::execution::Default, Piston> fluid(Gas{.eos = {.gamma = heat_ratio}},
+                                                            domain, duct.cloud(duct.far, true),
+                                                            Piston{stroke, frequency});
+  const double start = fluid.totals().mass;
+  for (int breath = 1; breath <= 10; ++breath) {
+    run_until(fluid, breath * period);
+    // Rows of ten pass whole.
+    CHECK(fluid.totals().mass == Approx(start).margin(2.1 * duct.width() * duct.dx));
+    CHECK(fluid.totals().volume ==
+          Approx(duct.length * duct.width()).margin(2.1 * duct.width() * duct.dx));
+  }
+  const double breathed = 10 * 2 * stroke / duct.dx * 10;  // particles
+  CHECK(static_cast<double>(fluid.traffic()[0].in.particles) == Approx(breathed).epsilon(0.4));
+}
+
+TEST_CASE("the energy account of openings is of second order in the step", "[verification]") {
+  const Duct<2> duct{.length = 1, .dx = 0.05, .far = stream<2>(0.2)};
+  auto inside = duct.far;
+  inside.v = {0, 0};
+  inside.p *= 1.1;
+  std::vector<double> gaps;
+  for (const double cfl : {0.2, 0.1, 0.05}) {
+    using Gas = sph::PaperScheme<2>;
+    sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), duct.cloud(inside));
+    Balance balance(fluid);
+    run_until(fluid, 4, cfl);
+    gaps.push_back(balance.gap().energy);
+  }
+  CHECK(std::log2(gaps[0] / gaps[1]) > 1.6);
+  CHECK(std::log2(gaps[1] / gaps[2]) > 1.6);
+  CHECK(gaps[2] < 1e-6);
+}
+
+TEST_CASE("openings that do not fit their gas are refused", "[verification]") {
   using Gas = sph::PaperScheme<2>;
-  sph::Fluid<Gas> fluid(Gas{.eos = {.gamma = heat_ratio}}, duct.domain(), cloud);
-  Balance balance(fluid);
-  run_until(fluid, 20);
-  CHECK(fluid.sample({0.5, 0.2}).p == Approx(duct.far.p).epsilon(0.005));
-  // Adiabatic: what is left has the density of its entropy.
-  CHECK(fluid.totals().mass ==
-        Approx(duct.width() * std::pow(1 / 1.3, 1 / heat_ratio)).epsilon(0.05));
-  CHECK(balance.gap().mass < 1e-12);
-  CHECK(balance.gap().momentum < 1e-12);
+  using Catch::Matchers::Contains;
+  const auto refusal = [](auto change, Gas gas = {}) {
+    const Duct<2> duct{.length = 1, .dx = 0.05, .far = stream<2>(0.2)};
+    auto cloud = duct.cloud(duct.far);
+    auto domain = duct.domain();
+    change(cloud, domain);
+    return test::refusal([&] { sph::Fluid<Gas> fluid(gas, domain, cloud); });
+  };
+  CHECK(refusal([](auto&, auto&) {}).empty());
+  CHECK_THAT(refusal([](auto&, auto& domain) { domain.periodic[0] = true; }),
+             Contains("axis of an opening = 0"));
+  CHECK_THAT(refusal([](auto& cloud, auto&) { cloud.openings[0].lower[0] = -0.15; }),
+             Contains("depth of an opening's zone = 0.15"));
+  CHECK_THAT(refusal([](auto& cloud, auto&) { cloud.openings[0].side = -1; }),
+             Contains("gas in front of opening 0 = 0"));
+  CHECK_THAT(refusal([](auto& cloud, auto&) { cloud.openings[0].upper[0] = 0.1; }),
+             Contains("set of a particle in the zone of opening 0 = 0"));
+  CHECK_THAT(refusal([](auto& cloud, auto&) { cloud.openings[0].lower[1] = -0.1; }),
+             Contains("lower corner of an opening's zone = -0.1"));
+  CHECK_THAT(refusal([](auto&, auto&) {}, Gas{.acceleration = {0, -1}}),
+             Contains("acceleration of a gas with openings = -1"));
 }
 
 TEST_CASE("accounts of openings hold with every integrator", "[verification]") {
@@ -411,6 +529,6 @@ TEST_CASE("a vortex leaves by an opening", "[verification][slow]") {
     const double share = thrown_back(mach);
     std::printf("vortex carried out at Mach %.1f: pressure upstream %.3f of its dip\n", mach,
                 share);
-    CHECK(share < 0.3);
+    CHECK(share < (mach < 0.3 ? 0.25 : 0.02));
   }
 }
