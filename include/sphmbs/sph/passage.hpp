@@ -76,8 +76,9 @@ SPHMBS_INLINE GasState<Dim, T> next_to(const Eos& eos, const particles::FieldsVi
 
 /// Lets particles pass: an opening's that are beyond its face become gas, gas that is in a zone
 /// becomes the opening's. What is beyond a zone's far end will vanish, and of two particles in a
-/// zone that have come too near the later one. A particle of a zone with room behind it is
-/// followed. Particles that flow out of a zone sideways come back at its other side as far gas.
+/// zone that have come too near the later one. A particle of a zone that moves towards the gas and
+/// has room behind it is followed. Particles that flow out of a zone sideways come back at its
+/// other side as far gas.
 template <int Dim, class T, class Eos>
 struct Pass {
   Eos eos;
@@ -113,7 +114,10 @@ struct Pass {
 
  private:
   SPHMBS_INLINE Fate in_zone(std::size_t i, const particles::OpeningView<Dim, T>& o) const {
-    const T inside = o.inside(fields.position(i));
+    const Vec<Dim, T> r = fields.position(i);
+    for (int axis = 0; axis < Dim; ++axis)
+      if (o.beside(r, axis) != T(0)) return Fate::stays;  // and comes back
+    const T inside = o.inside(r);
     if (inside >= T(0)) return Fate::enters;
     if (inside < -o.length()) return Fate::vanishes;
     // Compressed along the stream alone: particles of a lattice keep their distance across it.
@@ -122,7 +126,7 @@ struct Pass {
     for (std::uint64_t k = lists.first[i]; k < lists.last[i]; ++k) {
       const std::size_t j = lists.list[k];
       if (fields.set[j] != fields.set[i]) continue;
-      Vec<Dim, T> d = space.nearest(fields.position(j) - fields.position(i));
+      Vec<Dim, T> d = space.nearest(fields.position(j) - r);
       const bool later = fields.id[i] > fields.id[j];
       if (later && norm2(d) < T(0.16) * spacing * spacing) return Fate::vanishes;
       // Two side by side do not both fill the place behind them.
