@@ -82,6 +82,16 @@ sph::StepLimit step_limit_of(System& system, double cfl) {
     return {system.suggested_step(), "accuracy", 0};
 }
 
+/// How many steps, each as long as its limit, an integrator takes in one of its own: several where
+/// it sub-cycles.
+template <class Integrator>
+int limited_steps([[maybe_unused]] const Integrator& integrator) {
+  if constexpr (requires { integrator.gas_steps; })
+    return integrator.gas_steps;
+  else
+    return 1;
+}
+
 /// Steps a system until the end of its schedule. Observers see it at the beginning of a step, when
 /// state, rates and forces belong to the same time, and once more at the end. Steps that follow
 /// from stability or accuracy are shortened to meet exact observers; fixed steps are not.
@@ -102,6 +112,7 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
       const double left = schedule.until - system.time();
       sph::StepLimit limit = schedule.step ? sph::StepLimit{*schedule.step, "fixed", 0}
                                            : step_limit_of(system, schedule.cfl);
+      if (!schedule.step) limit.dt *= limited_steps(integrator);
       double wait = left;
       if (!schedule.step) ((wait = std::min(wait, observers.barrier() - system.time())), ...);
       // Whole steps of equal length up to the next observation, instead of a short last one.
@@ -117,6 +128,8 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
   if constexpr (time::ExplicitSystem<System>) {
     system.stage(0, 0);
     system.rates(0);
+  } else if constexpr (requires { system.evaluate(); }) {
+    system.evaluate();
   }
   observe(true);
 }

@@ -17,10 +17,11 @@ set(may_reconstruction core)
 set(may_boundary       core execution riemann geometry particles)
 set(may_sph            core execution kernels riemann reconstruction eos geometry time particles neighbours boundary)
 set(may_mbs            core execution time)
+set(may_coupling       core execution geometry time particles boundary sph mbs)
 set(may_io             everything)
 set(may_top            everything)  # the headers directly below include/sphmbs
 
-set(rooms core time kernels riemann reconstruction eos geometry execution particles neighbours boundary sph mbs io top)
+set(rooms core time kernels riemann reconstruction eos geometry execution particles neighbours boundary sph mbs coupling io top)
 
 # The room of a path relative to include/.
 function(room_of path result)

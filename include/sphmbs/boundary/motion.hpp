@@ -2,31 +2,39 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <type_traits>
 
 #include <sphmbs/core/vec.hpp>
 
 namespace sphmbs::boundary {
 
-/// Prescribed motion of virtual particles. `position` carries a point from time t0 to t1 and
-/// `velocity` is its rate; `set` is the number of the set of virtual particles. Times are double in
-/// any fields [s]. A motion that stretches or turns solids also has
-/// `stretch(set, t0, t1)`, the ratio of lengths [-], and `turned(set, n, t0, t1)` for directions.
+/// Which virtual particle moves.
+struct Mark {
+  int set;           // number of its set
+  std::uint32_t id;  // place in the initial cloud
+};
+
+/// Prescribed motion of virtual particles. `position` carries a particle from time t0 to t1 and
+/// `velocity` is the rate of a point of its solid. Times are double in any fields [s]. A motion
+/// that stretches or turns solids also has `stretch(mark, t0, t1)`, the ratio of lengths [-], and
+/// `turned(mark, n, t0, t1)` for directions; one that follows from forces has
+/// `rides(mark)`, true for the particles that do.
 template <class M, class V = Vec<2, double>>
 concept Motion = std::is_trivially_copyable_v<M> &&
-    requires(const M motion, int set, V r, double t) {
-  { motion.position(set, r, t, t) } -> std::same_as<V>;
-  { motion.velocity(set, r, t) } -> std::same_as<V>;
+    requires(const M motion, Mark mark, V r, double t) {
+  { motion.position(mark, r, t, t) } -> std::same_as<V>;
+  { motion.velocity(mark, r, t) } -> std::same_as<V>;
 };
 
 /// All virtual particles stay where they are.
 struct Fixed {
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, double, double) const {
+  SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double, double) const {
     return r;
   }
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>&, double) const {
+  SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>&, double) const {
     return Vec<Dim, T>::all(T(0));
   }
 };
@@ -38,15 +46,15 @@ struct Contraction {
   double speed;   // of each wall, inwards [m/s]
 
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> position(int, const Vec<Dim, T>& r, double t0, double t1) const {
+  SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double t0, double t1) const {
     return static_cast<T>(length_at(t1) / length_at(t0)) * r;
   }
   template <int Dim, class T>
-  SPHMBS_INLINE Vec<Dim, T> velocity(int, const Vec<Dim, T>& r, double t) const {
+  SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>& r, double t) const {
     return static_cast<T>(-2 * speed / length_at(t)) * r;
   }
 
-  SPHMBS_INLINE double stretch(int, double t0, double t1) const {
+  SPHMBS_INLINE double stretch(Mark, double t0, double t1) const {
     return length_at(t1) / length_at(t0);
   }
 
@@ -56,23 +64,32 @@ struct Contraction {
 
 static_assert(Motion<Fixed> && Motion<Contraction>);
 
-/// Ratio of lengths of a set's solid between two times; 1 where the motion does not say [-].
+/// Ratio of lengths of a particle's solid between two times; 1 where the motion does not say [-].
 template <class M>
-SPHMBS_INLINE double stretch([[maybe_unused]] const M& motion, [[maybe_unused]] int set,
+SPHMBS_INLINE double stretch([[maybe_unused]] const M& motion, [[maybe_unused]] Mark mark,
                              [[maybe_unused]] double t0, [[maybe_unused]] double t1) {
-  if constexpr (requires { motion.stretch(set, t0, t1); })
-    return motion.stretch(set, t0, t1);
+  if constexpr (requires { motion.stretch(mark, t0, t1); })
+    return motion.stretch(mark, t0, t1);
   else
     return 1;
 }
 
-/// A direction of a set's solid, carried from one time to another.
+/// Whether a particle's way follows from the forces on it: what a motion with `rides(mark)` says.
+template <class M>
+SPHMBS_INLINE bool rides([[maybe_unused]] const M& motion, [[maybe_unused]] Mark mark) {
+  if constexpr (requires { motion.rides(mark); })
+    return motion.rides(mark);
+  else
+    return false;
+}
+
+/// A direction of a particle's solid, carried from one time to another.
 template <class M, int Dim, class T>
-SPHMBS_INLINE Vec<Dim, T> turned([[maybe_unused]] const M& motion, [[maybe_unused]] int set,
+SPHMBS_INLINE Vec<Dim, T> turned([[maybe_unused]] const M& motion, [[maybe_unused]] Mark mark,
                                  const Vec<Dim, T>& n, [[maybe_unused]] double t0,
                                  [[maybe_unused]] double t1) {
-  if constexpr (requires { motion.turned(set, n, t0, t1); })
-    return motion.turned(set, n, t0, t1);
+  if constexpr (requires { motion.turned(mark, n, t0, t1); })
+    return motion.turned(mark, n, t0, t1);
   else
     return n;
 }

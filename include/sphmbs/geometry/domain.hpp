@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/core/math.hpp>
@@ -83,6 +84,10 @@ struct Domain {
         r[k] -= box.length(k) * std::floor((r[k] - box.lower[k]) / box.length(k));
     }
     return r;
+  }
+  /// The same for many: cells and nearest images take particles to be in the box.
+  void wrap(std::vector<Vec<Dim>>& points) const {
+    for (Vec<Dim>& r : points) r = wrapped(r);
   }
 
   /// @throws InvalidInput if the box is empty or not finite.

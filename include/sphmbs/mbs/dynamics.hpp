@@ -32,6 +32,13 @@ double extent(const Matrix<Dynamic, Dim>& translation, const VectorXd& q) {
   return largest > 0 ? largest : 1;
 }
 
+/// By how much the filter of generalized-alpha, made for a step of length `last`, is stretched for
+/// one of length h: as steps change, which keeps the order, but after one much shorter than its
+/// neighbours not by all of it [-].
+inline double filter_stretch(double h, double last) {
+  return last > 0 ? std::min(h / last, 5.0) : 1;
+}
+
 /// A structure in motion: its equations, a consistent state, and the linear solver with its
 /// factors. Integrators move it, observers read it.
 ///
@@ -55,6 +62,15 @@ class Dynamics {
     algorithmic_ = state_.vdot;
     powers_ = powers_at(equations_, state_);
     stored_at_start_ = potential_of_forces(equations_, state_);
+  }
+
+  /// Accelerations and multipliers at the start under a force from outside, such as that of gas at
+  /// rest [N per coordinate].
+  void start_under(const VectorXd& external) {
+    equations_.external_force() = external;
+    ConsistentStart(equations_, state_, size_, {}).find_accelerations();
+    algorithmic_ = state_.vdot;
+    powers_ = powers_at(equations_, state_);
   }
 
   double time() const { return state_.t; }             // [s]
@@ -93,8 +109,7 @@ class Dynamics {
   DynamicsStatistics& counts() { return statistics_; }
   /// The auxiliary acceleration of generalized-alpha for a step of length h [per s^2].
   VectorXd algorithmic_acceleration(double h) const {
-    const double share = last_step_ > 0 ? h / last_step_ : 1;
-    return state_.vdot + share * (algorithmic_ - state_.vdot);
+    return state_.vdot + filter_stretch(h, last_step_) * (algorithmic_ - state_.vdot);
   }
   /// Step that an error estimate suggests [s]; infinite before the first one.
   double suggested_step() const { return suggested_step_; }
@@ -104,15 +119,15 @@ class Dynamics {
   /// @throws NumericalFailure where a joint ends the run, or a removed condition is violated.
   void accept(State state, VectorXd algorithmic) {
     const double dt = state.t - state_.t;
+    structure_.for_each_type([&]<class T>(auto& components) {
+      if constexpr (WatchingConstraint<T>)
+        for (auto& joint : components) joint.accept(state.q, state.t);
+    });
+    check_removed(state);
     last_step_ = dt;
     state_ = std::move(state);
     algorithmic_ = std::move(algorithmic);
     ++statistics_.steps;
-    structure_.for_each_type([&]<class T>(auto& components) {
-      if constexpr (WatchingConstraint<T>)
-        for (auto& joint : components) joint.accept(state_.q, state_.t);
-    });
-    check_removed();
     const Powers now = powers_at(equations_, state_);
     dissipated_ += dt / 2 * (powers_.dissipated + now.dissipated);
     work_ += dt / 2 * (powers_.work + now.work);
@@ -121,15 +136,15 @@ class Dynamics {
   /// @}
 
  private:
-  void check_removed() {
+  void check_removed(const State& state) {
     if (start_.redundant.empty()) return;
-    equations_.evaluate(state_);
+    equations_.evaluate(state);
     const VectorXd phi = equations_.conditions_residual();
     const double allowed = 1e-6 * size_;
     for (const int k : start_.redundant)
       if (!(std::abs(phi[k]) <= allowed)) {
         std::ostringstream text;
-        text << "t = " << state_.t << " s: " << equations_.name_of_condition(k)
+        text << "t = " << state.t << " s: " << equations_.name_of_condition(k)
              << ", taken for redundant at the start, is violated by " << std::abs(phi[k])
              << ": the joints contradict each other away from the initial position, or that was a "
                 "singular one, such as bars in line, where they seem to hold the same; then start "

@@ -55,7 +55,6 @@ struct GeneralizedAlpha {
     return bound;
   }
 
- private:
   struct Coefficients {
     double alpha_m, alpha_f, gamma, beta;
   };
@@ -67,14 +66,26 @@ struct GeneralizedAlpha {
     return {alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) * (gamma + 0.5)};
   }
 
+  /// Where a step would lead, which Dynamics::accept makes the state.
   struct Attempt {
     State state;
     VectorXd before, algorithmic;  // a_n, a_{n+1}
     NewtonCourse course;
   };
 
+  /// Tries a step of length h [s] and leaves the system's state as it is. Factors of an earlier
+  /// state may mislead Newton's method: it has a second try with new ones.
   template <class System>
   Attempt attempt(System& system, double h) const {
+    Attempt first = attempt_once(system, h);
+    if (first.course.converged || first.course.singular) return first;
+    system.factors().forget();
+    return attempt_once(system, h);
+  }
+
+ private:
+  template <class System>
+  Attempt attempt_once(System& system, double h) const {
     const auto [alpha_m, alpha_f, gamma, beta] = coefficients();
     const MatrixWeights w{(1 - alpha_m) / (h * h * beta * (1 - alpha_f)), gamma / (h * beta)};
     const State& old = system.state();
@@ -129,18 +140,9 @@ struct GeneralizedAlpha {
     state.lambda += x.tail(m) / w.mass;
   }
 
-  // Factors of an earlier state may mislead Newton's method: it has a second try with new ones.
-  template <class System>
-  Attempt attempt_twice(System& system, double h) const {
-    Attempt first = attempt(system, h);
-    if (first.course.converged || first.course.singular) return first;
-    system.factors().forget();
-    return attempt(system, h);
-  }
-
   template <class System>
   void fixed_step(System& system, double h, int halvings) const {
-    Attempt next = attempt_twice(system, h);
+    Attempt next = attempt(system, h);
     if (next.course.converged) {
       system.accept(std::move(next.state), std::move(next.algorithmic));
       return;
@@ -163,7 +165,7 @@ struct GeneralizedAlpha {
     }
     expects(std::isfinite(h) && h > 0, "step", h, "positive and finite [s]");
     for (int failures = 0;;) {
-      Attempt next = attempt_twice(system, h);
+      Attempt next = attempt(system, h);
       double ratio = 0.5;
       if (next.course.converged) {
         double error = 0;

@@ -55,6 +55,26 @@ class ConsistentStart {
     return report_;
   }
 
+  /// Accelerations and multipliers only, of a state that is consistent otherwise.
+  /// @throws NumericalFailure for a singular mass.
+  void find_accelerations() {
+    constexpr int repetitions = 50;  // friction depends on the multipliers
+    const int n = static_cast<int>(state_.q.size());
+    state_.vdot = VectorXd::Zero(n);
+    VectorXd residual;
+    for (int k = 0; k < repetitions; ++k) {
+      equations_.evaluate(state_);
+      equations_.residual(VectorXd::Zero(n), residual);
+      state_.vdot.setZero();
+      const VectorXd conditions = kept(acceleration_of_conditions(equations_, state_));
+      const VectorXd x = solve(-residual.head(n), -conditions);
+      state_.vdot = x.head(n);
+      const VectorXd change = x.tail(equations_.conditions());
+      state_.lambda += change;
+      if (change.norm() <= 1e-12 * state_.lambda.norm()) break;
+    }
+  }
+
   /// Redundancy and positions only, as statics needs them.
   /// @throws as run()
   StartReport place() {
@@ -142,25 +162,6 @@ class ConsistentStart {
     report_.velocity_correction = (state_.v - start).cwiseAbs().maxCoeff();
     if (report_.velocity_correction > 1e-12 * scale)
       note("initial velocities", report_.velocity_correction);
-  }
-
-  // Friction depends on the multipliers, which are therefore found by repetition.
-  void find_accelerations() {
-    constexpr int repetitions = 50;
-    const int n = static_cast<int>(state_.q.size());
-    state_.vdot = VectorXd::Zero(n);
-    VectorXd residual;
-    for (int k = 0; k < repetitions; ++k) {
-      equations_.evaluate(state_);
-      equations_.residual(VectorXd::Zero(n), residual);
-      state_.vdot.setZero();
-      const VectorXd conditions = kept(acceleration_of_conditions(equations_, state_));
-      const VectorXd x = solve(-residual.head(n), -conditions);
-      state_.vdot = x.head(n);
-      const VectorXd change = x.tail(equations_.conditions());
-      state_.lambda += change;
-      if (change.norm() <= 1e-12 * state_.lambda.norm()) break;
-    }
   }
 
   // [M, Phi_q^T; Phi_q, 0] x = [force, conditions], at the state.

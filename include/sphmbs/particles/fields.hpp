@@ -78,6 +78,11 @@ struct RatesView {
   // What the gas does to particles of openings, by their mass, at the last stage; null if none are.
   T* push[Dim];  // force [m/s^2]
   T* heating;    // power, less the work of that force [W/kg]
+
+  /// Adds to a rate whose earlier stages have the weight `keep`; with 0 they are not read.
+  static SPHMBS_INLINE void write(T* rate, std::size_t i, T value, T keep) {
+    rate[i] = keep != T(0) ? keep * rate[i] + value : value;
+  }
 };
 
 }  // namespace sphmbs::particles

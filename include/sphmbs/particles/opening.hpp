@@ -13,8 +13,8 @@ namespace sphmbs::particles {
 /// particles of its own, see Cloud::add_opening.
 template <int Dim>
 struct Opening {
-  Vec<Dim> lower;   // corners of the zone [m]
-  Vec<Dim> upper;   //
+  Vec<Dim> lower;   // lower corner of the zone [m]
+  Vec<Dim> upper;   // upper corner [m]
   int axis;         // across the face
   int side;         // 1: gas lies beyond the zone's upper end along the axis, -1: its lower end
   State<Dim> far;   // of gas that comes in; where it flows outwards its velocity is not used

@@ -110,22 +110,18 @@ struct EvaluateOpening {
     }
     v_rate[o.axis] = o.side * u_rate;
     const T compression = p_rate / (a.c * a.c);  // along an isentrope
-    write(rates.rho, i, compression + rho_rate);
-    write(rates.e, i, a.p / (a.rho * a.rho) * compression + e_rate);
-    write(rates.h, i, -a.h / (T(dim) * a.rho) * (compression + rho_rate));
+    rates.write(rates.rho, i, compression + rho_rate, keep);
+    rates.write(rates.e, i, a.p / (a.rho * a.rho) * compression + e_rate, keep);
+    rates.write(rates.h, i, -a.h / (T(dim) * a.rho) * (compression + rho_rate), keep);
     const T self = Scheme::Kernel::shape(T(0));
     const Vec<dim, T> way = T(1) / (self + sum.number) * (self * a.v + sum.v);
     for (int k = 0; k < dim; ++k) {
-      write(rates.r[k], i, way[k]);
-      write(rates.v[k], i, v_rate[k]);
+      rates.write(rates.r[k], i, way[k], keep);
+      rates.write(rates.v[k], i, v_rate[k], keep);
     }
   }
 
  private:
-  SPHMBS_INLINE void write(T* field, std::size_t i, T value) const {
-    field[i] = keep != T(0) ? keep * field[i] + value : value;
-  }
-
   template <bool wraps>
   SPHMBS_INLINE AroundOpening<dim, T> around(std::size_t i, const particles::Record<dim, T>& a,
                                              const particles::OpeningView<dim, T>& o) const {

@@ -18,6 +18,13 @@ struct Moment {
   double dt;           // length of the step, or the part of it up to the stage [s]
 };
 
+/// The moment of a stage at time + dt after so many steps, the last of length last_dt: at the
+/// beginning of a step the state is the work of the step before.
+inline Moment moment_of_stage(std::uint64_t steps, double time, double dt, double last_dt) {
+  const bool begins = dt == 0 && steps > 0;
+  return {steps + (begins ? 0 : 1), time + dt, begins ? last_dt : dt};
+}
+
 /// One sentence on what went wrong, on the particle with the given id at this stage, and on what to
 /// try.
 template <class Policy, int Dim, class T, class Eos>

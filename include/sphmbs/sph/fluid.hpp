@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <span>
 
 #include <sphmbs/execution/default.hpp>
@@ -10,11 +9,10 @@
 #include <sphmbs/neighbours/cell_list.hpp>
 #include <sphmbs/sph/diagnosis.hpp>
 #include <sphmbs/sph/exchange.hpp>
+#include <sphmbs/sph/follow.hpp>
 #include <sphmbs/sph/interpolate.hpp>
 #include <sphmbs/sph/list_schedule.hpp>
 #include <sphmbs/sph/openings.hpp>
-#include <sphmbs/sph/rates.hpp>
-#include <sphmbs/sph/stages.hpp>
 #include <sphmbs/sph/statistics.hpp>
 #include <sphmbs/sph/survey.hpp>
 #include <sphmbs/sph/totals.hpp>
@@ -36,6 +34,7 @@ class Fluid {
   static constexpr int dim = Scheme::dim;
   using SchemeType = Scheme;
   using PolicyType = Policy;
+  using NumberType = T;
   using Search = neighbours::CellList<dim, T, Policy>;
 
   /// Takes the cloud and gives its memory back: move it in where particles are many.
@@ -47,53 +46,60 @@ class Fluid {
         domain_(domain),
         motion_(motion),
         space_(domain.template periodicity<T>()),
-        particles_(wrapped(cloud, domain),
+        particles_((domain.wrap(cloud.r), cloud),
                    [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
         openings_(scheme, domain, cloud),
         gas_count_(cloud.gas_count()),
         gas_mass_(cloud.gas_mass()) {
-    static_assert(boundary::Motion<Motion, Vec<dim, T>>);
+    static_assert(boundary::Motion<Motion, Vec<dim, T>> && time::ExplicitSystem<Fluid>);
     static_assert(neighbours::NeighbourSearch<Search, dim, T, Policy>);
-    static_assert(time::ExplicitSystem<Fluid>);
     scheme.check();
     domain.check();
     if constexpr (Scheme::Wall::surfaces) cloud.require_surfaces();
     vicinities_.resize(size());
-    const double h_max = *std::max_element(cloud.h.begin(), cloud.h.end());
-    neighbours::check_reach(domain, {Scheme::Kernel::support, 0, h_max});
+    neighbours::check_reach(
+        domain, {Scheme::Kernel::support, 0, *std::max_element(cloud.h.begin(), cloud.h.end())});
   }
 
   /// Goes to the stage y + scale k at time() + dt.
   /// @throws NumericalFailure naming a particle, its place and its state where the state at this
   ///         stage is not finite, or density, smoothing length or squared sound speed is not
   ///         positive, or particles could move by more than they reach.
-  void stage(double scale, double dt) {
+  /// @param slack  how far `follow` may move virtual particles from where they are then [m]
+  void stage(double scale, double dt, double slack = 0) {
+    slopes_known_ = false;
     write_records(scale, dt);
-    lists_.staged(dt, motion_surplus<Policy>(advance(0, dt), size()));
+    lists_.staged(dt, motion_surplus<Policy>(advance(0, dt), space_, size()) + 2 * slack);
     if (!lists_.outdated(dt)) return;
     rebuild_lists(dt);
     write_records(scale, dt);
   }
 
+  /// Particles that ride on bodies go where their motion has them at time() + dt by now, and the
+  /// forces on them are evaluated, while the gas stays at the stage that is evaluated there.
+  /// @throws NumericalFailure where that is further than the stage's slack.
+  void follow(double dt) {
+    const auto to = advance(0, dt);
+    if (motion_surplus<Policy>(to, space_, size()) > lists_.surplus())
+      fail("bodies go too far within the iterations of a step", step_limit(survey_, 1).id, dt);
+    Policy::for_each(size(), FollowMotion<Scheme, T, Motion>{to, space_, particles_.records(),
+                                                             vicinities_.data()});
+    if constexpr (Scheme::Wall::evolves) slopes_known_ = false;  // they see where walls are
+    evaluate_slopes();
+    const auto timer = statistics_.time(Phase::rates);
+    Policy::for_each(size(), EvaluateRiding{to, evaluation(0)});
+  }
+  /// Motion of the virtual particles; what moves them may change it between stages.
+  Motion& motion() { return motion_; }
+
   /// k = keep k + f(stage).
   void rates(double keep) {
-    const Gathered<T> from{search_.view(), particles_.records(), vicinities_.data()};
-    const auto border = static_cast<T>(lists_.reach().largest());
-    {
-      const auto timer = statistics_.time(Phase::slopes);
-      vicinities_.evaluate(space_, from, particles_, border);
-    }
+    evaluate_slopes();
     {
       const auto timer = statistics_.time(Phase::rates);
-      Policy::for_each(size(), EvaluateRates<Scheme, T, Policy::template lanes<T>>{
-                                   .scheme = scheme_,
-                                   .space = space_,
-                                   .from = from,
-                                   .set = particles_.fields().set,
-                                   .rates = particles_.rates(),
-                                   .keep = static_cast<T>(keep),
-                                   .border = border});
-      openings_.rates(scheme_, space_, search_.whole(), particles_, static_cast<T>(keep), border);
+      const auto evaluate = evaluation(keep);
+      Policy::for_each(size(), evaluate);
+      openings_.rates(scheme_, space_, search_.whole(), particles_, evaluate.keep, evaluate.border);
     }
     const auto timer = statistics_.time(Phase::survey);
     weight_ = keep * weight_ + 1;
@@ -101,18 +107,18 @@ class Fluid {
         size(), Survey<dim>{},
         SurveyParticle<Scheme, T>{scheme_, particles_.fields(), particles_.rates(),
                                   particles_.records(), 1 / weight_});
-    statistics_.pair_interactions += survey_.pairs;
-    statistics_.falls += survey_.falls;
-    ++statistics_.evaluations;
+    statistics_.evaluated(survey_.pairs, survey_.falls);
     exchange_.evaluated(survey_, gas_mass_, scheme_.acceleration, keep);
     lists_.moving(survey_.approach() + Scheme::Kernel::support * survey_.h_rate);
   }
 
   /// y = y + scale k, and the time goes on by dt.
   void commit(double scale, double dt) {
-    const double surplus = motion_surplus<Policy>(advance(0, dt), size());
-    const auto timer = statistics_.time(Phase::update);
-    Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
+    const double surplus = motion_surplus<Policy>(advance(0, dt), space_, size());
+    {
+      const auto timer = statistics_.time(Phase::update);
+      Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
+    }
     time_ += dt;
     last_dt_ = dt;
     exchange_.committed(scale);
@@ -121,12 +127,10 @@ class Fluid {
     if (openings_.moved(survey_.fastest_move() * dt, lists_.outdated(0))) let_pass();
   }
 
-  /// Time of the state y [s].
-  double time() const { return time_; }
+  double time() const { return time_; }  // of the state y [s]
   std::size_t size() const { return particles_.size(); }
   std::size_t gas_count() const { return gas_count_; }
-  /// Particles in the zones of openings.
-  std::size_t opening_count() const { return openings_.particle_count(); }
+  std::size_t opening_count() const { return openings_.particle_count(); }  // in their zones
   std::size_t virtual_count() const { return size() - gas_count_ - opening_count(); }
   const Scheme& scheme() const { return scheme_; }
   const geometry::Domain<dim>& domain() const { return domain_; }
@@ -134,7 +138,6 @@ class Fluid {
   /// What the last evaluation of the rates found.
   const Survey<dim>& survey() const { return survey_; }
   const Statistics& statistics() const { return statistics_; }
-
   /// What the gas has received from walls, bodies and the body force.
   const Exchange<dim>& exchange() const { return exchange_; }
 
@@ -173,17 +176,9 @@ class Fluid {
   /// See Vicinities; from an evaluation of the rates to the end of the step.
   const T* vicinities() const { return vicinities_.data(); }
 
-  /// Memory held [bytes].
   std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }
 
  private:
-  // Cells and nearest images take particles to be in the periodic box.
-  static const particles::Cloud<dim>& wrapped(particles::Cloud<dim>& cloud,
-                                              const geometry::Domain<dim>& domain) {
-    for (Vec<dim>& r : cloud.r) r = domain.wrapped(r);
-    return cloud;
-  }
-
   void let_pass() {
     const auto timer = statistics_.time(Phase::neighbours);
     const Traffic<dim> passed = openings_.pass(scheme_.eos, space_, search_.whole(), particles_);
@@ -197,13 +192,30 @@ class Fluid {
     return {particles_.fields(), particles_.rates(), motion_, static_cast<T>(scale), time_, dt};
   }
 
+  EvaluateRates<Scheme, T, Policy::template lanes<T>> evaluation(double keep) {
+    return {scheme_,
+            space_,
+            {search_.view(), particles_.records(), vicinities_.data()},
+            particles_.fields().set,
+            particles_.rates(),
+            static_cast<T>(keep),
+            static_cast<T>(lists_.reach().largest())};
+  }
+
+  void evaluate_slopes() {
+    if (slopes_known_) return;
+    slopes_known_ = true;
+    const auto timer = statistics_.time(Phase::slopes);
+    vicinities_.evaluate(evaluation(0), size());
+  }
+
   void write_records(double scale, double dt) {
     const auto timer = statistics_.time(Phase::update);
     using Write = WriteRecords<Scheme, T, Motion>;
-    culprit_.upload(std::array{Write::nobody});
-    Policy::for_each(size(), Write{advance(scale, dt), scheme_, space_, particles_.records(),
-                                   vicinities_.data(), culprit_.data()});
-    const std::uint32_t culprit = culprit_.download()[0];
+    const std::uint32_t culprit =
+        write_all<Policy>(Write{advance(scale, dt), scheme_, space_, particles_.records(),
+                                vicinities_.data(), culprit_.data()},
+                          culprit_, size());
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
   }
 
@@ -220,9 +232,7 @@ class Fluid {
   }
 
   [[noreturn]] void fail(std::string_view what, std::uint32_t id, double dt) {
-    // At the beginning of a step the state is the work of the step before.
-    const bool begins = dt == 0 && statistics_.steps > 0;
-    const Moment moment{statistics_.steps + (begins ? 0 : 1), time_ + dt, begins ? last_dt_ : dt};
+    const Moment moment = moment_of_stage(statistics_.steps, time_, dt, last_dt_);
     throw NumericalFailure(describe_culprit<Policy>(particles_, scheme_.eos, what, id, moment));
   }
 
@@ -242,7 +252,8 @@ class Fluid {
   Vicinities<Scheme, T, Policy> vicinities_;
   double time_ = 0;
   double last_dt_ = 0;
-  double weight_ = 0;  // of all evaluations in the rates
+  double weight_ = 0;          // of all evaluations in the rates
+  bool slopes_known_ = false;  // of this stage
   Exchange<dim> exchange_;
 };
 

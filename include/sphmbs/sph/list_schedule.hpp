@@ -65,6 +65,8 @@ class ListSchedule {
   }
 
   const neighbours::Reach& reach() const { return reach_; }
+  /// What the last stage allowed prescribed motion beyond its velocity [m].
+  double surplus() const { return surplus_; }
 
  private:
   neighbours::Reach reach_{};

@@ -30,6 +30,7 @@ class Openings {
            const particles::Cloud<dim>& cloud)
       : next_id_(cloud.size()), traffic_(cloud.openings.size()) {
     check(scheme, domain, cloud);
+    measure(cloud);
     std::vector<particles::OpeningView<dim, T>> seen;
     for (const particles::Opening<dim>& o : cloud.openings) {
       const auto number = [](double x) { return static_cast<T>(x); };
@@ -122,20 +123,24 @@ class Openings {
  private:
   using View = execution::Field<particles::OpeningView<dim, T>, Policy>;
 
-  void check(const Scheme& scheme, const geometry::Domain<dim>& domain,
-             const particles::Cloud<dim>& cloud) {
+  void measure(const particles::Cloud<dim>& cloud) {
+    tolerance_ = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (!particles::is_virtual(cloud.set[i]))
+        tolerance_ = std::min(tolerance_, 0.25 * cloud.h[i]);
+      if (particles::is_opening(cloud.set[i])) ++particle_count_;
+    }
+  }
+
+  static void check(const Scheme& scheme, const geometry::Domain<dim>& domain,
+                    const particles::Cloud<dim>& cloud) {
     if (cloud.openings.empty()) return;
     for (int k = 0; k < dim; ++k)
       expects(scheme.acceleration[k] == 0, "acceleration of a gas with openings",
               scheme.acceleration[k], "0: far gas has no weight");
     double h_max = 0;
-    tolerance_ = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (particles::is_virtual(cloud.set[i])) continue;
-      h_max = std::max(h_max, cloud.h[i]);
-      tolerance_ = std::min(tolerance_, 0.25 * cloud.h[i]);
-      if (particles::is_opening(cloud.set[i])) ++particle_count_;
-    }
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (!particles::is_virtual(cloud.set[i])) h_max = std::max(h_max, cloud.h[i]);
     const double support = Scheme::Kernel::support * h_max;
     for (std::size_t k = 0; k < cloud.openings.size(); ++k) {
       const particles::Opening<dim>& o = cloud.openings[k];

@@ -38,14 +38,14 @@ struct EvaluateRates {
     const bool moves = set[i] == particles::gas;
     const bool evolves = moves || Scheme::Wall::evolves;
     const T rho = evolves ? T(2) * sum.rho + (moves ? relaxation(a, sum) : T(0)) : T(0);
-    write(rates.rho, i, rho, keep);
-    write(rates.e, i, evolves ? sum.e : T(0), keep);
-    write(rates.h, i, -a.h / (T(dim) * a.rho) * rho, keep);  // eq. (23)
+    rates.write(rates.rho, i, rho, keep);
+    rates.write(rates.e, i, evolves ? sum.e : T(0), keep);
+    rates.write(rates.h, i, -a.h / (T(dim) * a.rho) * rho, keep);  // eq. (23)
     const Vec<dim, T> drift = moves ? velocity(a, sum) : Vec<dim, T>::all(T(0));
     for (int k = 0; k < dim; ++k) {
       if (moves) {
-        write(rates.v[k], i, sum.v[k] + static_cast<T>(scheme.acceleration[k]), keep);
-        write(rates.r[k], i, drift[k], keep);
+        rates.write(rates.v[k], i, sum.v[k] + static_cast<T>(scheme.acceleration[k]), keep);
+        rates.write(rates.r[k], i, drift[k], keep);
       } else {
         rates.v[k][i] = sum.v[k];
         rates.r[k][i] = k == 0 ? sum.power : T(0);
@@ -67,9 +67,6 @@ struct EvaluateRates {
     }
   }
 
-  static SPHMBS_INLINE void write(T* field, std::size_t i, T value, T weight) {
-    field[i] = weight != T(0) ? weight * field[i] + value : value;
-  }
   static SPHMBS_INLINE std::uint16_t count(T x) {
     return static_cast<std::uint16_t>(x < T(65535) ? x : T(65535));
   }

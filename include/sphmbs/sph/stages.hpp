@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include <sphmbs/boundary/motion.hpp>
 #include <sphmbs/core/atomic.hpp>
+#include <sphmbs/execution/field.hpp>
 #include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/fields.hpp>
@@ -53,13 +55,13 @@ struct Advance {
       }
     }
     if (!moves) {
-      y.r = motion.position(fields.set[i], y.r, time, time + dt);
+      y.r = motion.position(mark(i), y.r, time, time + dt);
       Vec<Dim, T> seen = y.r;  // the point whose velocity gas meets
       if constexpr (Scheme::Wall::surfaces) {
         const particles::Surface<Dim, T> s = surface(i);
         seen += s.depth * s.normal;
       }
-      y.v = motion.velocity(fields.set[i], seen, time + dt);
+      y.v = motion.velocity(mark(i), seen, time + dt);
       if constexpr (!Scheme::Wall::evolves) {
         y.h *= stretch(i);
         y.rho = y.rho / math::power<Dim>(stretch(i));
@@ -70,13 +72,15 @@ struct Advance {
 
   /// The surface in front of a virtual particle at time + dt; surfaces are known.
   SPHMBS_INLINE particles::Surface<Dim, T> surface(std::size_t i) const {
-    return {boundary::turned(motion, fields.set[i], fields.normal_at(i), time, time + dt),
+    return {boundary::turned(motion, mark(i), fields.normal_at(i), time, time + dt),
             stretch(i) * fields.depth[i]};
   }
 
+  SPHMBS_INLINE boundary::Mark mark(std::size_t i) const { return {fields.set[i], fields.id[i]}; }
+
   /// Ratio of lengths of the solid that a virtual particle belongs to, time + dt to time.
   SPHMBS_INLINE T stretch(std::size_t i) const {
-    return static_cast<T>(boundary::stretch(motion, fields.set[i], time, time + dt));
+    return static_cast<T>(boundary::stretch(motion, mark(i), time, time + dt));
   }
 };
 
@@ -121,6 +125,16 @@ struct WriteRecords {
   static SPHMBS_INLINE bool finite(T x) { return math::abs(x) <= std::numeric_limits<T>::max(); }
 };
 
+/// Lets `write` loop over n particles, with the memory for its culprit.
+/// @return the culprit's id, or nobody
+template <execution::ExecutionPolicy Policy, class Write>
+std::uint32_t write_all(const Write& write, execution::Field<std::uint32_t, Policy>& culprit,
+                        std::size_t n) {
+  culprit.upload(std::array{Write::nobody});
+  Policy::for_each(n, write);
+  return culprit.download()[0];
+}
+
 /// Writes y(t + dt) over y(t), the surfaces of virtual particles included, and wraps positions into
 /// the periodic box.
 template <class Scheme, class T, class Motion>
@@ -157,32 +171,36 @@ template <class Scheme, class T, class Motion>
 struct MotionSurplus {
   static constexpr int dim = Scheme::dim;
   Advance<Scheme, T, Motion> advance;
+  geometry::Periodicity<dim, T> space;
 
   SPHMBS_INLINE Surplus operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     if (!particles::is_virtual(fields.set[i])) return {};
     const Vec<dim, T> r = fields.position(i);
     const double dt = advance.dt;
-    const Vec<dim, T> end =
-        advance.motion.position(fields.set[i], r, advance.time, advance.time + dt);
+    const boundary::Mark mark = advance.mark(i);
+    const Vec<dim, T> end = advance.motion.position(mark, r, advance.time, advance.time + dt);
     Vec<dim, T> seen = r;
     if constexpr (Scheme::Wall::surfaces) seen += fields.depth[i] * fields.normal_at(i);
-    const Vec<dim, T> v = advance.motion.velocity(fields.set[i], seen, advance.time);
+    const Vec<dim, T> v = advance.motion.velocity(mark, seen, advance.time);
     const double growth = static_cast<double>(advance.stretch(i)) - 1;
-    return {math::sqrt(norm2((end - r).template to<double>() - dt * v.template to<double>())) +
+    const Vec<dim, T> way = space.nearest(space.wrap(end) - r);
+    return {math::sqrt(norm2(way.template to<double>() - dt * v.template to<double>())) +
             Scheme::Kernel::support * static_cast<double>(fields.h[i]) * math::max(growth, 0.0)};
   }
 };
 
-/// How much further virtual particles move in the time of an `advance` than their velocity at its
-/// beginning says [m].
+/// How much further two virtual particles may close in in the time of an `advance` than their
+/// velocities at its beginning say [m].
 template <execution::ExecutionPolicy Policy, class Scheme, class T, class Motion>
-double motion_surplus(const Advance<Scheme, T, Motion>& advance, std::size_t n) {
+double motion_surplus(const Advance<Scheme, T, Motion>& advance,
+                      const geometry::Periodicity<Scheme::dim, T>& space, std::size_t n) {
   if constexpr (std::is_same_v<Motion, boundary::Fixed>)
     return 0;
   else
-    return execution::reduce<Policy>(n, Surplus{}, MotionSurplus<Scheme, T, Motion>{advance})
-        .length;
+    return 2 *
+           execution::reduce<Policy>(n, Surplus{}, MotionSurplus<Scheme, T, Motion>{advance, space})
+               .length;
 }
 
 }  // namespace sphmbs::sph

@@ -23,6 +23,13 @@ struct Statistics {
       0;  // of them those that met a reconstruction not admissible and did without
   std::array<double, phase_names.size()> seconds{};
 
+  /// Counts an evaluation of the rates over so many pairs.
+  void evaluated(std::uint64_t pairs, std::uint64_t refused) {
+    pair_interactions += pairs;
+    falls += refused;
+    ++evaluations;
+  }
+
   /// Adds the time until the returned object dies to a phase.
   auto time(Phase phase) {
     using Clock = std::chrono::steady_clock;

@@ -18,16 +18,17 @@ class Vicinities {
       stored_ = Stored(std::vector<T>(n * particles::slopes_size<Scheme::dim>));
   }
 
-  /// Evaluates the slopes of a stage.
-  void evaluate(const geometry::Periodicity<Scheme::dim, T>& space, const Gathered<T>& from,
-                particles::Particles<Scheme::dim, T, Policy>& particles, T border) {
+  /// Evaluates the slopes of a stage, for n particles.
+  /// @param rates  the EvaluateRates of the stage, for its neighbours and records
+  template <class Rates>
+  void evaluate(const Rates& rates, std::size_t n) {
     if constexpr (Scheme::vicinity)
-      Policy::for_each(particles.size(), EvaluateSlopes<Scheme, T, Policy::template lanes<T>>{
-                                             .space = space,
-                                             .from = from,
-                                             .set = particles.fields().set,
-                                             .vicinities = stored_.data(),
-                                             .border = border});
+      Policy::for_each(
+          n, EvaluateSlopes<Scheme, T, Policy::template lanes<T>>{.space = rates.space,
+                                                                  .from = rates.from,
+                                                                  .set = rates.set,
+                                                                  .vicinities = stored_.data(),
+                                                                  .border = rates.border});
   }
 
   /// Null where the scheme needs none.

@@ -22,9 +22,9 @@ constexpr Contraction cavity{.length = 1, .speed = 0.5};
 
 TEST_CASE("a fixed wall stays where it is", "[boundary]") {
   const Vec<3> r{1, -2, 3};
-  CHECK(Fixed{}.position(1, r, 0.0, 7.0) == r);
-  CHECK(Fixed{}.velocity(1, r, 7.0) == Vec<3>{0, 0, 0});
-  CHECK(Fixed{}.velocity(1, Vec<2, float>{1, 2}, 1.0f) == Vec<2, float>{0, 0});
+  CHECK(Fixed{}.position({1, 0}, r, 0.0, 7.0) == r);
+  CHECK(Fixed{}.velocity({1, 0}, r, 7.0) == Vec<3>{0, 0, 0});
+  CHECK(Fixed{}.velocity({1, 0}, Vec<2, float>{1, 2}, 1.0f) == Vec<2, float>{0, 0});
 }
 
 TEST_CASE("the length of a contraction is l - 2 v t, and its walls move at v", "[boundary]") {
@@ -32,20 +32,20 @@ TEST_CASE("the length of a contraction is l - 2 v t, and its walls move at v", "
   CHECK(cavity.length_at(0.8) == Approx(0.2).epsilon(rounding));
   for (const double t : {0.0, 0.3, 0.79}) {
     const double wall = cavity.length_at(t) / 2;
-    CHECK(cavity.velocity(1, Vec<2>{wall, 0}, t)[0] == Approx(-0.5).epsilon(rounding));
-    CHECK(cavity.velocity(1, Vec<2>{0, -wall}, t)[1] == Approx(0.5).epsilon(rounding));
+    CHECK(cavity.velocity({1, 0}, Vec<2>{wall, 0}, t)[0] == Approx(-0.5).epsilon(rounding));
+    CHECK(cavity.velocity({1, 0}, Vec<2>{0, -wall}, t)[1] == Approx(0.5).epsilon(rounding));
   }
 }
 
 TEST_CASE("a contraction in two steps is the contraction in one", "[boundary]") {
   const Vec<2> r{0.53, -0.41};
-  const auto half_way = cavity.position(1, r, 0.1, 0.45);
-  const auto two = cavity.position(1, half_way, 0.45, 0.7);
-  const auto one = cavity.position(1, r, 0.1, 0.7);
+  const auto half_way = cavity.position({1, 0}, r, 0.1, 0.45);
+  const auto two = cavity.position({1, 0}, half_way, 0.45, 0.7);
+  const auto one = cavity.position({1, 0}, r, 0.1, 0.7);
   CHECK(test::length(two - one) < rounding);
-  CHECK(test::length(cavity.position(1, one, 0.7, 0.1) - r) < rounding);
-  CHECK(cavity.position(1, r, 0.3, 0.3) == r);
-  CHECK(test::length(cavity.position(1, r, 0.0, 0.8) - 0.2 * r) < rounding);
+  CHECK(test::length(cavity.position({1, 0}, one, 0.7, 0.1) - r) < rounding);
+  CHECK(cavity.position({1, 0}, r, 0.3, 0.3) == r);
+  CHECK(test::length(cavity.position({1, 0}, r, 0.0, 0.8) - 0.2 * r) < rounding);
 }
 
 TEST_CASE("the velocity of a contraction is the rate of its position", "[boundary]") {
@@ -53,13 +53,14 @@ TEST_CASE("the velocity of a contraction is the rate of its position", "[boundar
   for (const double t : {0.0, 0.25, 0.6}) {
     // Positions are linear in time, so central differences err by rounding alone.
     const double step = 1e-3;
-    const auto difference = cavity.position(2, r, t, t + step) - cavity.position(2, r, t, t - step);
-    CHECK(test::length(1 / (2 * step) * difference - cavity.velocity(2, r, t)) < 1e-12);
+    const auto difference =
+        cavity.position({2, 0}, r, t, t + step) - cavity.position({2, 0}, r, t, t - step);
+    CHECK(test::length(1 / (2 * step) * difference - cavity.velocity({2, 0}, r, t)) < 1e-12);
   }
 }
 
 TEST_CASE("a contraction works in single precision", "[boundary]") {
-  const auto r = cavity.position(1, Vec<2, float>{0.5f, 0.25f}, 0.0f, 0.5f);
+  const auto r = cavity.position({1, 0}, Vec<2, float>{0.5f, 0.25f}, 0.0f, 0.5f);
   CHECK(r[0] == Approx(0.25f));
   CHECK(r[1] == Approx(0.125f));
 }
@@ -82,9 +83,9 @@ TEMPLATE_LIST_TEST_CASE("virtual particles follow the contraction over stages an
   }
   const auto fields = fluid.particles().fields();
   for (std::size_t i = 0; i < fluid.size(); ++i) {
-    const auto expected = cavity.position(1, cloud.r[fields.id[i]], 0.0, t);
+    const auto expected = cavity.position({1, 0}, cloud.r[fields.id[i]], 0.0, t);
     CHECK(test::length(fields.position(i) - expected) < rounding);
-    CHECK(test::length(fields.velocity(i) - cavity.velocity(1, expected, t)) < 1e-13);
+    CHECK(test::length(fields.velocity(i) - cavity.velocity({1, 0}, expected, t)) < 1e-13);
   }
 }
 

@@ -50,12 +50,12 @@ using Gas = sph::RiemannSph<kernels::QuinticSpline<Dim>, riemann::Acoustic, eos:
 struct Slide {
   double u;  // [m/s]
   template <int Dim, class T>
-  Vec<Dim, T> position(int, Vec<Dim, T> r, double from, double to) const {
+  Vec<Dim, T> position(sphmbs::boundary::Mark, Vec<Dim, T> r, double from, double to) const {
     r[0] += static_cast<T>(u * (to - from));
     return r;
   }
   template <int Dim, class T>
-  Vec<Dim, T> velocity(int, const Vec<Dim, T>&, double) const {
+  Vec<Dim, T> velocity(sphmbs::boundary::Mark, const Vec<Dim, T>&, double) const {
     Vec<Dim, T> v = Vec<Dim, T>::all(T(0));
     v[0] = static_cast<T>(u);
     return v;
@@ -67,12 +67,12 @@ struct Swing {
   double amplitude;  // [m]
   double frequency;  // [rad/s]
   template <int Dim, class T>
-  Vec<Dim, T> position(int, Vec<Dim, T> r, double from, double to) const {
+  Vec<Dim, T> position(sphmbs::boundary::Mark, Vec<Dim, T> r, double from, double to) const {
     r[0] += static_cast<T>(amplitude * (std::cos(frequency * from) - std::cos(frequency * to)));
     return r;
   }
   template <int Dim, class T>
-  Vec<Dim, T> velocity(int, const Vec<Dim, T>&, double t) const {
+  Vec<Dim, T> velocity(sphmbs::boundary::Mark, const Vec<Dim, T>&, double t) const {
     Vec<Dim, T> v = Vec<Dim, T>::all(T(0));
     v[0] = static_cast<T>(amplitude * frequency * std::sin(frequency * t));
     return v;
@@ -139,7 +139,7 @@ TEST_CASE("fields in float do not slow walls down", "[boundary]") {
   const boundary::Contraction walls{.length = 1, .speed = 0.5};
   Vec<2, float> r{0.5f, 0.5f};
   double t = 0.5;
-  for (int step = 0; step < 1000; ++step, t += 1e-7) r = walls.position(1, r, t, t + 1e-7);
+  for (int step = 0; step < 1000; ++step, t += 1e-7) r = walls.position({1, 0}, r, t, t + 1e-7);
   CHECK(static_cast<double>(r[0]) == Approx(0.5 * walls.length_at(t) / 0.5).epsilon(6e-5));
 }
 

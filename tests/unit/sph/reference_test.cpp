@@ -34,11 +34,12 @@ template <int Dim>
 struct Keeping {
   sphmbs::Vec<Dim> velocity_of_all;
   template <class T>
-  sphmbs::Vec<Dim, T> position(int, const sphmbs::Vec<Dim, T>& r, double, double) const {
+  sphmbs::Vec<Dim, T> position(sphmbs::boundary::Mark, const sphmbs::Vec<Dim, T>& r, double,
+                               double) const {
     return r;
   }
   template <class T>
-  sphmbs::Vec<Dim, T> velocity(int, const sphmbs::Vec<Dim, T>&, double) const {
+  sphmbs::Vec<Dim, T> velocity(sphmbs::boundary::Mark, const sphmbs::Vec<Dim, T>&, double) const {
     return velocity_of_all.template to<T>();
   }
 };

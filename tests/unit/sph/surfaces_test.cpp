@@ -36,11 +36,11 @@ struct Floor {
 struct Sliding {
   Vec<2> speed;
   template <class T>
-  Vec<2, T> position(int, const Vec<2, T>& r, double, double) const {
+  Vec<2, T> position(sphmbs::boundary::Mark, const Vec<2, T>& r, double, double) const {
     return r;
   }
   template <class T>
-  Vec<2, T> velocity(int, const Vec<2, T>&, double) const {
+  Vec<2, T> velocity(sphmbs::boundary::Mark, const Vec<2, T>&, double) const {
     return speed.to<T>();
   }
 };

@@ -39,11 +39,12 @@ struct Mirror {
 struct Sliding {
   sphmbs::Vec<2> speed;
   template <class T>
-  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, double, double) const {
+  sphmbs::Vec<2, T> position(sphmbs::boundary::Mark, const sphmbs::Vec<2, T>& r, double,
+                             double) const {
     return r;
   }
   template <class T>
-  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>&, double) const {
+  sphmbs::Vec<2, T> velocity(sphmbs::boundary::Mark, const sphmbs::Vec<2, T>&, double) const {
     return speed.to<T>();
   }
 };
@@ -52,11 +53,12 @@ struct Sliding {
 struct Shearing {
   double gradient;
   template <class T>
-  sphmbs::Vec<2, T> position(int, const sphmbs::Vec<2, T>& r, double, double) const {
+  sphmbs::Vec<2, T> position(sphmbs::boundary::Mark, const sphmbs::Vec<2, T>& r, double,
+                             double) const {
     return r;
   }
   template <class T>
-  sphmbs::Vec<2, T> velocity(int, const sphmbs::Vec<2, T>& r, double) const {
+  sphmbs::Vec<2, T> velocity(sphmbs::boundary::Mark, const sphmbs::Vec<2, T>& r, double) const {
     return {static_cast<T>(gradient) * r[1], T(0)};
   }
 };
@@ -172,7 +174,8 @@ TEMPLATE_LIST_TEST_CASE(
   auto cloud = gas_above_walls(59);
   const Shearing motion{70};
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud.set[i] != sphmbs::particles::gas) cloud.v[i] = motion.velocity(1, cloud.r[i], 0.0);
+    if (cloud.set[i] != sphmbs::particles::gas)
+      cloud.v[i] = motion.velocity({1, 0}, cloud.r[i], 0.0);
   sphmbs::sph::Fluid<test::Gas<2>, TestType, Shearing> fluid(gas, test::cube<2>(2, false), cloud,
                                                              motion);
   fluid.stage(0, 0);

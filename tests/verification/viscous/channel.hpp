@@ -63,12 +63,12 @@ struct Sliding {
   double speed = 0;
 
   template <class T>
-  Vec<2, T> position(int, const Vec<2, T>& r, double, double) const {
+  Vec<2, T> position(sphmbs::boundary::Mark, const Vec<2, T>& r, double, double) const {
     return r;
   }
   template <class T>
-  Vec<2, T> velocity(int set, const Vec<2, T>&, double) const {
-    return {static_cast<T>(set == upper ? speed : 0), T(0)};
+  Vec<2, T> velocity(sphmbs::boundary::Mark mark, const Vec<2, T>&, double) const {
+    return {static_cast<T>(mark.set == upper ? speed : 0), T(0)};
   }
 };
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include <sphmbs/coupling/watch.hpp>
+#include <sphmbs/coupling/wetted_surface.hpp>
+#include <sphmbs/mbs/mean_load.hpp>
+#include <sphmbs/sph/survey.hpp>
+
+namespace sphmbs::coupling {
+
+/// What has passed from the gas to the bodies since time 0.
+template <int Dim>
+struct Exchanged {
+  Vec<Dim> impulse = {};      // on the wetted particles [kg m/s]
+  double work_of_gas = 0;     // of the gas's forces at the velocities that it met [J]
+  double work_on_bodies = 0;  // of the same as a generalized force on the way of the bodies [J]
+};
+
+/// A gas and the bodies in it, in both directions: coupling::Staggered and coupling::Strong move
+/// it, observers read its parts. Keeps references to all three.
+///
+///   coupling::Immersed system(fluid, dynamics, surface);
+///   run(system, coupling::Staggered{}, {.until = 1}, no_report);
+template <class Fluid, class Bodies, class Surface>
+class Immersed {
+ public:
+  static constexpr int dim = Fluid::dim;
+
+  /// The bodies start with the accelerations that they have under the gas's forces.
+  /// @throws InvalidInput where gas and bodies are at different times, for a surface whose lever
+  ///         does not fit the walls, for bodies under another external force, and for bodies that
+  ///         overlap or have gas in them; as the first evaluation of the gas does.
+  Immersed(Fluid& fluid, Bodies& bodies, Surface& surface)
+      : fluid_(fluid), bodies_(bodies), surface_(surface) {
+    using Wall = typename Fluid::SchemeType::Wall;
+    expects(surface.lever() == (Wall::surfaces && !Wall::slips), "lever of the wetted surface",
+            surface.lever(), "true where gas sticks to walls, else false");
+    expects(bodies.equations().external_force().isZero(), "external force of the bodies", "given",
+            "none: the gas's takes its place");
+    expects(fluid.time() == bodies.time(), "time of the bodies", bodies.time(),
+            "that of the gas [s]");
+    evaluate();
+    const mbs::VectorXd load = load_at(time());
+    bodies_.start_under(load);
+    mean_load_ = mbs::MeanLoad(load);
+    watch_.begin(fluid, surface);
+  }
+
+  double time() const { return fluid_.time(); }  // [s]
+  Fluid& fluid() { return fluid_; }
+  Bodies& bodies() { return bodies_; }  // mbs::Dynamics
+  Surface& surface() { return surface_; }
+  /// Of the bodies: coordinates and rates, the structure, multipliers as mbs::Dynamics gives them.
+  const mbs::State& state() const { return bodies_.state(); }
+  const auto& structure() const { return bodies_.structure(); }
+  template <class T>
+  mbs::VectorXd multipliers(int number) {
+    return bodies_.template multipliers<T>(number);
+  }
+  const sph::Survey<dim>& survey() const { return fluid_.survey(); }
+  const Exchanged<dim>& exchanged() const { return exchanged_; }
+  /// Gaps between bodies that became narrow, and bodies that went through periodic sides.
+  const std::vector<Incident>& incidents() const { return watch_.incidents(); }
+
+  /// Gas and virtual particles at this time, and the rates and forces that belong to it.
+  void evaluate() {
+    const mbs::State& s = bodies_.state();
+    depart(s.q, s.v, s.vdot);
+    fluid_.stage(0, 0);
+    fluid_.rates(0);
+    read();
+  }
+
+  /// @name For coupling schemes
+  /// @{
+  /// Sends the wetted particles on their way from such coordinates, rates and accelerations.
+  void depart(const mbs::VectorXd& q, const mbs::VectorXd& v, const mbs::VectorXd& a) {
+    surface_.depart(bodies_.state().t, q, v, a);
+    fluid_.motion() = surface_.motion();
+  }
+  void read() { surface_.read(fluid_); }
+  /// Generalized force of the forces that were read, or of others, where particles are at a time.
+  mbs::VectorXd load_at(double t) const { return load_at(t, surface_.forces()); }
+  mbs::VectorXd load_at(double t, const std::vector<Vec<dim>>& forces) const {
+    return surface_.load(forces, t, static_cast<int>(bodies_.state().q.size()));
+  }
+  mbs::MeanLoad& mean_load() { return mean_load_; }
+
+  /// The forces that were read have acted for dt, in the middle of which, at time t, they were
+  /// read.
+  void gas_acted(double dt, double t) {
+    for (const Vec<dim>& f : surface_.forces()) exchanged_.impulse += dt * f;
+    exchanged_.work_of_gas += dt * surface_.power(t);
+  }
+  /// The bodies went by `way` under a mean generalized force.
+  void bodies_went(const mbs::VectorXd& mean, const mbs::VectorXd& way) {
+    exchanged_.work_on_bodies += mean.dot(way);
+  }
+  /// Gas and bodies are at the end of a step.
+  /// @throws NumericalFailure for a body that touches a wall or another body.
+  void stepped() { watch_.look(fluid_, surface_); }
+  /// @}
+
+ private:
+  Fluid& fluid_;
+  Bodies& bodies_;
+  Surface& surface_;
+  mbs::MeanLoad mean_load_;
+  Exchanged<dim> exchanged_;
+  Watch<dim> watch_;
+};
+
+}  // namespace sphmbs::coupling
