@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rigid double pendulum that slides along a flexible cable (paper, sect. 5.3), without air. O, P
-// and B are where the paper's particle counts put them: its figure is lost.
+// Rigid double pendulum that slides along a flexible cable (paper, sect. 5.3), in air or without.
+// O, P and B are where the paper's particle counts put them: its figure is lost.
+#include <algorithm>
+
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/ancf/cable.hpp>
 #include <sphmbs/mbs/ancf/line.hpp>
@@ -8,11 +10,13 @@
 #include <sphmbs/mbs/joints/revolute.hpp>
 #include <sphmbs/mbs/joints/sliding.hpp>
 #include <sphmbs/mbs/ncf/bar.hpp>
+#include <sphmbs/sphmbs.hpp>
 
 #include "reference/pendulum_on_cable_curves.hpp"
 #include "support/backends.hpp"
+#include "support/coupled_session.hpp"
 #include "support/guarded_main.hpp"
-#include "support/structure_session.hpp"
+#include "support/schemes.hpp"
 
 using namespace sphmbs;
 using namespace sphmbs::mbs;
@@ -20,72 +24,195 @@ using namespace sphmbs::mbs;
 struct Options {
   int elements = 24;
   std::string measure = "green";
+  std::string scheme = "paper";
+  std::string coupling = "staggered";
   bool no_air = false;
 };
 
-template <class Measure, class Policy>
-void pendulum_on_cable(const examples::Settings& settings, const Options& options, Policy) {
+/// The cable from O to P, bars AB and BC, and their joints; A is at P at the start.
+template <class Measure>
+struct Pendulum {
   using Cable = ancf::Cable<2, Measure>;
   using Sliding = joints::Sliding<Cable>;
-  const Vector<2> O(2.98, 6.5), P(7, 6.5), B(6, 6.5), C(6, 5.5);  // [m]
-  const double side = 0.0874;                                     // of the pendulum's section [m]
+  using Mechanism = Structure<Cable, ncf::Bar, joints::Joint<2>, Sliding>;
 
-  Structure<Cable, ncf::Bar, joints::Joint<2>, Sliding> mechanism;
-  mechanism.gravity = {0, -9.81};  // [m/s^2]
-  const auto cable = ancf::line(mechanism, {.from = O,
-                                            .to = P,
-                                            .elements = options.elements,
-                                            .radius = 0.0015,            // [m]
-                                            .density = 5208.39,          // [kg/m^3]
-                                            .youngs_modulus = 2.0e11});  // [Pa]
-  const auto bar = [&](const Vector<2>& from, const Vector<2>& to) {
+  static constexpr double side = 0.0874;                          // of the bars' section [m]
+  const Vector<2> O{2.98, 6.5}, P{7, 6.5}, B{6, 6.5}, C{6, 5.5};  // [m]
+
+  explicit Pendulum(int elements)
+      : cable(ancf::line(mechanism, {.from = O,
+                                     .to = P,
+                                     .elements = elements,
+                                     .radius = 0.0015,             // [m]
+                                     .density = 5208.39,           // [kg/m^3]
+                                     .youngs_modulus = 2.0e11})),  // [Pa]
+        AB(bar(P, B)),
+        BC(bar(B, C)) {
+    mechanism.gravity = {0, -9.81};  // [m/s^2]
+    pin_O = mechanism.add(joints::pinned(cable.start(), mechanism.q(), "O"));
+    pin_P = mechanism.add(joints::pinned(cable.end(), mechanism.q(), "P"));
+    mechanism.add(joints::revolute(AB.end(), BC.start(), "B"));
+    slider = mechanism.add(joints::sliding(
+        mechanism, cable.elements, {.slider = AB.start(), .at = cable.length, .name = "A"}));
+  }
+
+  /// Notes, trajectories of A and C, and joint forces.
+  template <class System>
+  void record(examples::Session<System>& session, const Options& options) {
+    session.note("cable", std::to_string(options.elements) + " ANCF elements, strain measure " +
+                              options.measure + ", pinned at O and P");
+    examples::trace_point(session, "A", AB.start(), "xy");
+    examples::trace_point(session, "C", BC.end(), "xy");
+    session.record("s", "m", [this, &system = session.system()] {
+      return mechanism.template all<Sliding>()[0].arc().at(system.state().q)[0];
+    });
+    examples::record_reaction<joints::Joint<2>>(session, pin_O, "force_O");
+    examples::record_reaction<joints::Joint<2>>(session, pin_P, "force_P");
+    examples::record_reaction<Sliding>(session, slider, "force_A");
+  }
+
+  Mechanism mechanism;
+  ancf::Line<Cable> cable;
+  Placed<ncf::Bar> AB, BC;
+  int pin_O, pin_P, slider;
+
+ private:
+  Placed<ncf::Bar> bar(const Vector<2>& from, const Vector<2>& to) {
     return mechanism.add(
         ncf::Bar{.from = from, .to = to, .density = 349.45, .area = side * side, .height = side});
-  };
-  const auto AB = bar(P, B), BC = bar(B, C);
-  const int pin_O = mechanism.add(joints::pinned(cable.start(), mechanism.q(), "O"));
-  const int pin_P = mechanism.add(joints::pinned(cable.end(), mechanism.q(), "P"));
-  mechanism.add(joints::revolute(AB.end(), BC.start(), "B"));
-  const int slider = mechanism.add(joints::sliding(
-      mechanism, cable.elements, {.slider = AB.start(), .at = cable.length, .name = "A"}));
+  }
+};
 
-  Dynamics<decltype(mechanism), solvers::SparseLDLT, Policy> system(mechanism);
+template <class Measure, class Policy>
+void without_air(examples::Settings settings, const Options& options, Policy) {
+  if (!settings.step) settings.step = 2.5e-4;
+  Pendulum<Measure> pendulum(options.elements);
+  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT, Policy> system(
+      pendulum.mechanism);
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable", system);
-  session.note("cable", std::to_string(options.elements) + " ANCF elements, strain measure " +
-                            options.measure + ", pinned at O and P");
-  session.note("air", options.no_air ? "none (--no-air)" : "none");
-  examples::trace_point(session, "A", AB.start(), "xy");
-  examples::trace_point(session, "C", BC.end(), "xy");
-  session.record(
-      "s", "m", [&] { return mechanism.template all<Sliding>()[0].arc().at(system.state().q)[0]; });
-  examples::record_reaction<joints::Joint<2>>(session, pin_O, "force_O");
-  examples::record_reaction<joints::Joint<2>>(session, pin_P, "force_P");
-  examples::record_reaction<Sliding>(session, slider, "force_A");
+  pendulum.record(session, options);
+  session.note("air", "none (--no-air)");
   session.run(examples::integrator_of(settings), 400, 50);
   examples::compare_with_reference(session, options.measure);
+  session.finish();
+}
+
+template <class Measure, class Gas, class Policy>
+void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
+  const double dx = settings.spacing;
+  for (const double length : {10.0, 1.0, 0.5})
+    examples::require(dx <= 0.1 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
+                      "--spacing", dx, "a whole fraction of 0.5 m, and at most 0.1 m");
+  examples::require_memory(100 / (dx * dx), dx);
+  Pendulum<Measure> pendulum(options.elements);
+  const VectorXd q = pendulum.mechanism.q();
+
+  // Where: a room, periodic along x, whose floor and ceiling belong to the gas's lattice.
+  const geometry::Box<2> room{.lower = {0, 0}, .upper = {10, 10}};
+  const geometry::Domain<2> domain{.box = room, .periodic = {true, false}};
+  const geometry::Lattice<2> lattice{.spacing = dx, .origin = {0, 0}};
+
+  // What: air; walls of four layers; and on each bar, in place of the lattice's points that it
+  // covers but its ends, virtual particles that ride on it: a file of them, which gas on both sides
+  // sees, or in the best scheme layers for each side.
+  const particles::State<2> still{.rho = 1.293, .p = 1e4};  // [kg/m^3], [Pa]
+  const auto file = [&](const Vector<2>& from, const Vector<2>& to) {
+    const int pieces = static_cast<int>(std::lround((to - from).norm() / dx));
+    std::vector<Vec<2>> points;
+    for (int k = 1; k < pieces; ++k) {
+      const Vector<2> r = from + (to - from) * k / pieces;
+      points.push_back({r[0], r[1]});
+    }
+    return points;
+  };
+  const auto on_AB = file(pendulum.P, pendulum.B), on_BC = file(pendulum.B, pendulum.C);
+  const auto covered = [&](const Vec<2>& r) {
+    const auto near = [&](const Vec<2>& p) { return norm2(p - r) < 1e-6 * dx * dx; };
+    return std::any_of(on_AB.begin(), on_AB.end(), near) ||
+           std::any_of(on_BC.begin(), on_BC.end(), near);
+  };
+  const geometry::Box<2> between{.lower = {-100, 0}, .upper = {200, 10}};
+  std::vector<Vec<2>> air = lattice.points(room.grown(dx / 2), domain, dx);
+  std::erase_if(air, covered);
+  particles::Cloud<2> cloud;
+  cloud.add_gas(air, still, {dx});
+  cloud.add_virtual(lattice.inner_points(between.grown(4.5 * dx) - between, domain, 5 * dx), still,
+                    {dx}, outside(between.grown(dx / 2)));
+  coupling::WettedSurface<2, Policy> surface;
+  const auto wet = [&](const Placed<ncf::Bar>& bar, const std::vector<Vec<2>>& points,
+                       const Vec<2>& normal) {
+    std::vector<int> sets;
+    if constexpr (Gas::Wall::surfaces) {
+      const auto sides =
+          cloud.add_sheet(points, std::vector<Vec<2>>(points.size(), normal), still, {dx});
+      sets = {sides.front, sides.back};
+    } else {
+      sets = {cloud.add_virtual(points, still, {dx})};
+    }
+    for (const int set : sets)
+      surface.tie(cloud, set, coupling::points_of(bar, q, cloud, set), q, Pendulum<Measure>::side);
+    return sets;
+  };
+  const std::vector<int> sets_AB = wet(pendulum.AB, on_AB, {0, 1});
+  const std::vector<int> sets_BC = wet(pendulum.BC, on_BC, {1, 0});
+
+  // Without a background pressure the gas presses on the bars where the other one, at the hinge, is
+  // in its place: with 20 N at 0.1 m, three quarters of a bar's weight.
+  const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, -9.81}, .background = still.p};
+  sph::Fluid<Gas, Policy, coupling::Riding<2>> fluid(gas, domain, std::move(cloud),
+                                                     surface.motion(), policy);
+  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT, Policy> bodies(
+      pendulum.mechanism);
+  coupling::Immersed system(fluid, bodies, surface);
+  examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable in air",
+                            system);
+  pendulum.record(session, options);
+  session.note("air", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>() + "; bars " +
+                          examples::format_exact(Pendulum<Measure>::side) + " m deep; coupling " +
+                          options.coupling);
+  for (const auto& [name, sets] : {std::pair("AB", sets_AB), std::pair("BC", sets_BC)})
+    for (const int k : {0, 1})
+      session.record(std::string("gas_force_") + name + "_" + "xy"[k], "N",
+                     [&fluid, sets = sets, k] {
+                       double force = 0;
+                       for (const int set : sets) force += fluid.force_on(set)[k];
+                       return Pendulum<Measure>::side * force;
+                     });
+  examples::with_coupling(options.coupling, settings,
+                          [&](const auto& scheme) { session.run(scheme, 400, 20); });
+  examples::compare_with_motion_without_air(session, options.measure);
   session.finish();
 }
 
 int main(int argc, char** argv) {
   Options options;
   examples::CommandLine command_line({.name = "pendulum_on_cable",
-                                      .title = "double pendulum that slides along a cable",
+                                      .title = "double pendulum that slides along a cable in air",
                                       .backends = examples::backends(),
-                                      .defaults = {.until = 1, .step = 2.5e-4, .threads = 1},
-                                      .gas = false,
+                                      .defaults = {.spacing = 0.05, .until = 1, .cfl = 0.4},
+                                      .gas = true,
                                       .structure = true});
   command_line.add_whole_number("--elements", options.elements, {.at_least = 2, .at_most = 1000},
                                 "", "number of elements of the cable");
   command_line.add_choice("--measure", options.measure, {"green", "engineering"},
                           "strain measure of the cable");
   command_line.add_flag("--no-air", options.no_air,
-                        "names the run without air, the only one so far");
+                        "the bodies alone, by fixed steps of 2.5e-4 s where --step says no other");
+  examples::add_scheme(command_line, options.scheme);
+  examples::add_coupling(command_line, options.coupling);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    const auto simulate = [&]<class Measure>(const auto& s, auto policy) {
+      if (options.no_air)
+        without_air<Measure>(s, options, policy);
+      else
+        examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
+            options.scheme, [&]<class Gas>() { in_air<Measure, Gas>(s, options, policy); });
+    };
     examples::with_backend(settings, [&](const auto& s, auto policy) {
       if (options.measure == "green")
-        pendulum_on_cable<ancf::Green>(s, options, policy);
+        simulate.template operator()<ancf::Green>(s, policy);
       else
-        pendulum_on_cable<ancf::Engineering>(s, options, policy);
+        simulate.template operator()<ancf::Engineering>(s, policy);
     });
   });
 }

@@ -36,17 +36,19 @@ inline Shedding shedding(const History& history) {
     return sum / time;
   };
   const double middle = mean(lift, from);
+  std::vector<double> weight(t.size());
+  double weights = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if (t[i] < from) continue;
+    weight[i] = (t[i] - t[i - 1]) * (1 - std::cos(2 * math::pi * (t[i] - from) / (to - from)));
+    weights += weight[i];
+  }
   Shedding found{0, 0, 0};
   for (double f = 0.05; f <= 0.5; f += 1e-4) {
     std::complex<double> sum = 0;
-    double weights = 0;
-    for (std::size_t i = 1; i < t.size(); ++i) {
-      if (t[i] < from) continue;
-      const double weight =
-          (t[i] - t[i - 1]) * (1 - std::cos(2 * math::pi * (t[i] - from) / (to - from)));
-      sum += weight * (lift[i] - middle) * std::polar(1.0, -2 * math::pi * f * t[i]);
-      weights += weight;
-    }
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (weight[i] > 0)
+        sum += weight[i] * (lift[i] - middle) * std::polar(1.0, -2 * math::pi * f * t[i]);
     if (2 * std::abs(sum) / weights > found.lift) found = {0, 2 * std::abs(sum) / weights, f};
   }
   const double periods = std::floor((to - from) * found.strouhal);

@@ -194,6 +194,7 @@ class Session {
     Progress state{
         .time = system_.time(), .time_step = limit.dt, .until = settings_.until, .limited_by = why};
     display_.progress(state);
+    if constexpr (requires { display_.notice(report_); }) display_.notice(report_);
     report_.progress(state);
   }
 

@@ -47,10 +47,7 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
   void prepare() {}
 
   std::vector<BannerLine> banner(const Settings& settings) {
-    const auto& equations = system_.equations();
-    std::vector<BannerLine> lines{{"structure", parts_text(),
-                                   format_count(equations.coordinates()) + " coordinates, " +
-                                       format_count(equations.conditions()) + " conditions"}};
+    std::vector<BannerLine> lines{parts()};
     for (const std::string& note : system_.start().notes) lines.push_back({"start", note, ""});
     lines.push_back({"run", "until " + format_exact(settings.until) + " s",
                      settings.backend + ", " + std::to_string(settings.threads) +
@@ -62,6 +59,14 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
         {"step", step,
          "generalized-alpha, spectral radius " + format_exact(settings.spectral_radius)});
     return lines;
+  }
+
+  /// What there is.
+  BannerLine parts() {
+    const auto& equations = system_.equations();
+    return {"structure", parts_text(),
+            format_count(equations.coordinates()) + " coordinates, " +
+                format_count(equations.conditions()) + " conditions"};
   }
 
   void heed(const Settings&, Report&) const {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // falling_plates as its users run it, against an independent solution of the same equations.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@ using Reference = sphmbs::examples::PlatesReference;
 using Words = std::vector<std::string>;
 
 test::StructureRun run(Words words) {
+  words.push_back("--no-air");
   return test::run_structure(SPHMBS_FALLING_PLATES, std::move(words));
 }
 
@@ -34,7 +36,7 @@ double velocity_difference(const test::Table& traces, double until) {
 }  // namespace
 
 TEST_CASE("falling_plates follow the reference and stay symmetric", "[falling_plates]") {
-  const auto plates = run({"--until", "0.9", "--no-air"});
+  const auto plates = run({"--until", "0.9"});
   CHECK(plates.traces.head == Words{"t[s]", "P_x[m]", "P_z[m]", "P_vx[m/s]", "P_vz[m/s]"});
   test::check_times(plates.traces, 0.9);
   CHECK(plates.summary["structure"]["coordinates"] == 2178);
@@ -64,10 +66,14 @@ TEST_CASE("falling_plates follow the reference and stay symmetric", "[falling_pl
 }
 
 TEST_CASE("falling_plates on two threads and one leave the same", "[falling_plates]") {
+  const auto [air, files] = GENERATE(std::pair<Words, int>({"--no-air", "--until", "0.02"}, 41 + 7),
+                                     std::pair<Words, int>({"--until", "0.005"}, 2 * 21 + 7));
+  CAPTURE(air);
   const test::Scratch scratch;
   for (const Words& words : {Words{"--backend", "serial"}, Words{"--threads", "2"}}) {
     Words all = words;
-    all.insert(all.end(), {"--until", "0.02", "--quiet", "--output", words[1]});
+    all.insert(all.end(), air.begin(), air.end());
+    all.insert(all.end(), {"--quiet", "--output", words[1]});
     REQUIRE(test::start(scratch, SPHMBS_FALLING_PLATES, all).code == 0);
   }
   int compared = 0;
@@ -78,7 +84,29 @@ TEST_CASE("falling_plates on two threads and one leave the same", "[falling_plat
     CHECK(test::text_of(entry.path()) == test::text_of(scratch.work() / "2" / name));
     ++compared;
   }
-  CHECK(compared == 41 + 7);  // files of bodies, and all others
+  CHECK(compared == files);  // of fields and bodies, and all others
+}
+
+TEST_CASE("falling_plates fall in air", "[falling_plates]") {
+  const test::Scratch scratch;
+  const auto ended =
+      test::start(scratch, SPHMBS_FALLING_PLATES,
+                  {"--until", "0.02", "--threads", "2", "--quiet", "--output", "run"});
+  CAPTURE(ended.err);
+  REQUIRE(ended.code == 0);
+  const auto summary = test::summary_of(scratch.work() / "run");
+  CHECK(summary["particles"]["gas"] == 46590);
+  CHECK(summary["particles"]["virtual"] == 28210);
+  CHECK(std::abs(summary["conservation"]["mass"].get<double>()) < 1e-14);
+  CHECK(std::abs(summary["conservation"]["momentum"].get<double>()) < 1e-13);
+  CHECK(std::abs(summary["conservation"]["energy"].get<double>()) < 1e-6);
+  CHECK(summary["results"]["largest_asymmetry_of_P"]["value"].get<double>() < 1e-12);
+  // The plates, of 157 N, press on the air below and hang on the air above.
+  const test::Table history = test::table_of(scratch.work() / "run" / "history.csv");
+  CHECK(history.column("gas_force_z[N]").back() > 5);
+  CHECK(history.column("gas_force_z[N]").back() < 100);
+  CHECK(std::abs(summary["results"]["work_lost_between_gas_and_bodies"]["value"].get<double>()) <
+        1e-11);
 }
 
 TEST_CASE("falling_plates converge with the mesh", "[falling_plates][slow]") {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// A free piston between two closed columns of gas, 1 m each, swings on them as on springs; against
+// the exact period of small swings, with the gas's own mass. p = rho = 1, gamma 1.4, in 1D.
+#include <sphmbs/mbs.hpp>
+#include <sphmbs/sphmbs.hpp>
+
+#include "reference/gas_spring_curves.hpp"
+#include "support/backends.hpp"
+#include "support/coupled_session.hpp"
+#include "support/guarded_main.hpp"
+#include "support/piston.hpp"
+#include "support/schemes.hpp"
+
+using namespace sphmbs;
+
+struct Swing {
+  double mass = 10;   // of the piston [kg/m^2]
+  double way = 0.01;  // out of the middle at the start, at rest [m]
+};
+
+template <class Gas, class Policy>
+void gas_spring(const examples::Settings& settings, const Swing& swing, const std::string& coupling,
+                Policy policy) {
+  const double dx = settings.spacing;
+  const int count = static_cast<int>(std::lround(1 / dx));
+  examples::require(dx <= 0.1 && std::abs(count * dx - 1) < 1e-6, "--spacing", dx,
+                    "a whole fraction of 1 m, and at most 0.1 m");
+
+  // Where: the piston is as thick as gas sees on both sides, the columns lie beside it.
+  const double half = 5 * dx, end = 1 + half;
+  const auto evenly = [](double from, double to, int n) {
+    std::vector<Vec<1>> points;
+    for (int i = 0; i < n; ++i) points.push_back({from + (i + 0.5) * (to - from) / n});
+    return points;
+  };
+  const geometry::Domain<1> domain{.box = {.lower = {-end - 5 * dx}, .upper = {end + 5 * dx}}};
+
+  // What: both columns compressed or stretched along an isentrope, walls, and the piston, whose
+  // virtual particles ride on it.
+  particles::Cloud<1> cloud;
+  const auto add_column = [&](double from, double to) {
+    const double rho = 1 / (to - from);
+    cloud.add_gas(evenly(from, to, count), {.rho = rho, .p = std::pow(rho, 1.4)},
+                  {(to - from) / count});
+  };
+  add_column(-end, swing.way - half);
+  add_column(swing.way + half, end);
+  const auto add_solid = [&](double from, double to, const geometry::Box<1>& solid) {
+    const int layers = static_cast<int>(std::lround((to - from) / dx));
+    return cloud.add_virtual(evenly(from, to, layers), {.rho = 1, .p = 1}, {dx}, solid);
+  };
+  add_solid(-end - 5 * dx, -end, {.lower = {-end - 1}, .upper = {-end}});
+  add_solid(end, end + 5 * dx, {.lower = {end}, .upper = {end + 1}});
+  const double left = swing.way - half, right = swing.way + half;
+  const int faces = add_solid(left, right, {.lower = {left}, .upper = {right}});
+
+  mbs::Structure<examples::Piston> structure;
+  const auto piston = structure.add(examples::Piston{.mass = swing.mass, .position = swing.way});
+  coupling::WettedSurface<1, Policy> surface;
+  surface.tie(cloud, faces,
+              coupling::points_beside(piston.point({0, 0}), structure.q(), cloud, faces),
+              structure.q());
+  sph::Fluid<Gas, Policy, coupling::Riding<1>> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
+                                                     std::move(cloud), surface.motion(), policy);
+  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU, Policy> bodies(structure);
+  coupling::Immersed system(fluid, bodies, surface);
+
+  examples::Session session(settings, "gas_spring", "a piston between two columns of gas", system);
+  session.note("gas", "ideal gas gamma 1.4; " + examples::describe<Gas>());
+  session.note("piston", examples::format_exact(swing.mass) + " kg/m^2, let go " +
+                             examples::format_exact(swing.way) + " m off; coupling " + coupling);
+  session.record("way", "m", [&] { return bodies.state().q[0]; });
+  session.record("speed", "m/s", [&] { return bodies.state().v[0]; });
+  session.record("force", "N", [&] { return fluid.force_on(faces)[0]; });
+  session.record("total_energy", "J",
+                 [&] { return fluid.totals().energy() + bodies.energies().kinetic; });
+  examples::with_coupling(coupling, settings, [&](const auto& scheme) {
+    session.run(scheme, std::max(400, static_cast<int>(40 * settings.until)), 4);
+  });
+  examples::compare_with_exact(session, {.mass = swing.mass});
+  session.finish();
+}
+
+int main(int argc, char** argv) {
+  examples::CommandLine command_line(
+      {.name = "gas_spring",
+       .title = "a piston between two columns of gas",
+       .backends = examples::backends(),
+       .defaults = {.spacing = 0.01, .until = 62, .cfl = 0.4, .threads = 1},
+       .gas = true,
+       .structure = true});
+  std::string scheme = "best", coupling = "strong";
+  Swing swing;
+  examples::add_scheme(command_line, scheme);
+  examples::add_coupling(command_line, coupling);
+  command_line.add_number("--mass", swing.mass, {.above = 0.0}, "kg/m^2", "of the piston");
+  command_line.add_number("--way", swing.way, {.above = 0.0, .at_most = 0.5}, "m",
+                          "of the piston out of the middle at the start");
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      examples::with_scheme<sph::PaperScheme<1>, sph::SmoothScheme<1>>(
+          scheme, [&]<class Gas>() { gas_spring<Gas>(s, swing, coupling, policy); });
+    });
+  });
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// A shock of Mach 1.21 runs over a thin steel panel that is clamped to the floor of a channel
+// (after the shock-tube experiments of Giordano et al., Shock Waves 14, 2005), against an
+// independent solution.
+#include <sphmbs/mbs.hpp>
+#include <sphmbs/mbs/ancf/cable.hpp>
+#include <sphmbs/mbs/ancf/line.hpp>
+#include <sphmbs/mbs/joints/clamped.hpp>
+#include <sphmbs/sphmbs.hpp>
+
+#include <sphmbs/coupling/wetted_line.hpp>
+
+#include "reference/shock_panel_curves.hpp"
+#include "support/backends.hpp"
+#include "support/coupled_session.hpp"
+#include "support/guarded_main.hpp"
+#include "support/schemes.hpp"
+
+using namespace sphmbs;
+
+/// Lengths [m]; x is 0 at the panel and y on the floor.
+struct Setup {
+  double height = 0.08;
+  double end = 0.265;      // where the channel is closed
+  double opening = -0.35;  // where gas comes in, as it is behind the shock
+  double shock = -0.05;    // at the start
+  particles::State<2> ahead{.rho = 1.1886, .p = 1e5};  // [kg/m^3], [Pa]
+  double stiffness = 2.2e11 * 1e-9 / 12;               // of the panel, per metre of depth [N m]
+};
+
+constexpr double panel_length = 0.05, panel_thickness = 1e-3;  // [m]
+
+/// As the reference has it, or as others have computed the experiment.
+Setup setup_named(const std::string& name) {
+  if (name == "reference") return {};
+  return {.height = 0.065,
+          .end = 0.25,
+          .shock = -0.02,
+          .ahead = {.rho = 1.2, .p = 1.01e5},
+          .stiffness = 2.2e11 * 1e-9 / 12 / (1 - 0.3 * 0.3)};
+}
+
+/// Gas behind a shock that runs in the direction of x, from the jump conditions.
+particles::State<2> behind_shock(const particles::State<2>& ahead, double mach, double gamma) {
+  const double square = mach * mach, c = std::sqrt(gamma * ahead.p / ahead.rho);
+  const double denser = (gamma + 1) * square / ((gamma - 1) * square + 2);
+  return {.rho = ahead.rho * denser,
+          .p = ahead.p * (1 + 2 * gamma / (gamma + 1) * (square - 1)),
+          .v = {mach * c * (1 - 1 / denser), 0}};
+}
+
+/// Gas, walls and the panel's virtual particles.
+template <class Gas>
+struct Channel {
+  Channel(const Setup& setup, double dx) {
+    const auto columns = [dx](double length) { return (std::round(length / dx) + 0.5) * dx; };
+    // The first column of the panel's virtual particles takes the place of one of gas: lengths are
+    // measured from half a spacing before and behind it.
+    const double from = -columns(-setup.opening), to = columns(setup.end), deep = 4 * dx;
+    const geometry::Box<2> inside{.lower = {from, 0}, .upper = {to, setup.height}};
+    domain.box = {.lower = {from - deep, 0}, .upper = inside.upper};
+    const geometry::Lattice<2> lattice{.spacing = dx, .origin = {0, dx / 2}};
+    const particles::State<2> behind = behind_shock(setup.ahead, 1.21, 1.4);
+
+    std::vector<Vec<2>> shocked, still, patches;
+    for (const Vec<2>& r : lattice.points(inside, domain))
+      (r[0] < setup.shock - dx / 4                      ? shocked
+       : std::abs(r[0]) < dx / 4 && r[1] < panel_length ? patches
+                                                        : still)
+          .push_back(r);
+    cloud.add_gas(shocked, behind, {dx});
+    cloud.add_gas(still, setup.ahead, {dx});
+    const geometry::Box<2> hollow{.lower = {-100, 0}, .upper = inside.upper};
+    cloud.add_virtual(lattice.points(hollow.grown(deep) - hollow, domain, 2 * deep), setup.ahead,
+                      {dx}, outside(hollow));
+    if constexpr (Gas::Wall::surfaces) {
+      const auto sides =
+          cloud.add_sheet(patches, std::vector<Vec<2>>(patches.size(), {-1, 0}), setup.ahead, {dx});
+      panel = {sides.front, sides.back};
+    } else {
+      panel = {cloud.add_virtual(patches, setup.ahead, {dx})};
+    }
+    const geometry::Box<2> zone{.lower = domain.box.lower, .upper = {from, setup.height}};
+    cloud.add_opening({.lower = zone.lower,
+                       .upper = zone.upper,
+                       .axis = 0,
+                       .side = 1,
+                       .far = behind,
+                       .distance = to - from},
+                      lattice.points(zone, domain), {dx});
+    gas = {.eos = {.gamma = 1.4}, .background = setup.ahead.p};
+  }
+
+  template <class Motion, class Policy>
+  auto fluid(const Motion& motion, Policy policy) {
+    return sph::Fluid<Gas, Policy, Motion>(gas, domain, std::move(cloud), motion, policy);
+  }
+
+  geometry::Domain<2> domain;
+  particles::Cloud<2> cloud;
+  std::vector<int> panel;  // its sets of virtual particles
+  Gas gas;
+};
+
+/// Notes, force on the panel and pressures.
+template <class System, class Fluid>
+void record(examples::Session<System>& session, Fluid& fluid, const std::vector<int>& panel,
+            double height) {
+  const double dx = session.settings().spacing;
+  session.note("gas",
+               "2D, ideal gas gamma 1.4; " + examples::describe<typename Fluid::SchemeType>());
+  for (const int k : {0, 1})
+    session.record(std::string("force_") + "xy"[k], "N/m", [&fluid, panel, k] {
+      double force = 0;
+      for (const int set : panel) force += fluid.force_on(set)[k];
+      return force;
+    });
+  const auto pressure = [&](const std::string& name, const Vec<2>& x) {
+    session.record("p_" + name, "Pa", [&fluid, x] { return fluid.sample(x).p; });
+  };
+  pressure("front", {-0.04, 0.02});
+  pressure("behind", {0.04, 0.02});
+  pressure("floor_front", {-0.01, dx / 2});
+  pressure("floor_behind", {0.01, dx / 2});
+  pressure("top", {0, height - dx / 2});
+}
+
+template <class Gas, class Policy>
+void rigid_panel(const examples::Settings& settings, const std::string& setup_name, Policy policy) {
+  const Setup setup = setup_named(setup_name);
+  Channel<Gas> channel(setup, settings.spacing);
+  auto fluid = channel.fluid(boundary::Fixed{}, policy);
+  examples::Session session(settings, "shock_panel", "shock on a rigid panel", fluid);
+  session.note("panel", "rigid (--rigid); set-up " + setup_name);
+  record(session, fluid, channel.panel, setup.height);
+  session.run(time::PredictorCorrector{}, 500, 20);
+  examples::compare_rigid(session, setup_name == "reference");
+  session.finish();
+}
+
+template <class Gas, class Policy>
+void flexible_panel(const examples::Settings& settings, const std::string& setup_name, int elements,
+                    const std::string& coupling, Policy policy) {
+  using Cable = mbs::ancf::Cable<2>;
+  const Setup setup = setup_named(setup_name);
+  mbs::Structure<Cable, mbs::joints::Joint<2>> structure;
+  const auto line =
+      mbs::ancf::line(structure, {.from = {0, 0},
+                                  .to = {0, panel_length},
+                                  .elements = elements,
+                                  .prototype = Cable{.axial_stiffness = 2.2e11 * panel_thickness,
+                                                     .bending_stiffness = setup.stiffness,
+                                                     .mass_per_length = 7600 * panel_thickness}});
+  structure.add(mbs::joints::clamped<2>(line.start(), {line.gradient(0)}, structure.q(), "foot"));
+
+  Channel<Gas> channel(setup, settings.spacing);
+  coupling::WettedSurface<2, Policy> surface;
+  for (const int set : channel.panel)
+    surface.tie(channel.cloud, set, coupling::points_of(line, structure.q(), channel.cloud, set),
+                structure.q());
+  auto fluid = channel.fluid(surface.motion(), policy);
+  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLDLT, Policy> bodies(structure);
+  coupling::Immersed system(fluid, bodies, surface);
+  examples::Session session(settings, "shock_panel", "shock on a flexible panel", system);
+  session.note("panel", std::to_string(elements) + " ANCF cable elements, clamped; set-up " +
+                            setup_name + "; coupling " + coupling);
+  record(session, fluid, channel.panel, setup.height);
+  for (const auto& [name, point] :
+       {std::pair("tip", line.end()), std::pair("middle", line.point(panel_length / 2))})
+    for (const int k : {0, 1})
+      session.record(std::string(name) + "_" + "xy"[k], "m", [&bodies, point = point, k] {
+        return point.at(bodies.state().q)[k] - (k == 1 ? point.x0[1] : 0);
+      });
+  examples::with_coupling(coupling, settings,
+                          [&](const auto& scheme) { session.run(scheme, 500, 20); });
+  examples::compare_flexible(session, setup_name == "reference");
+  session.finish();
+}
+
+int main(int argc, char** argv) {
+  examples::CommandLine command_line({.name = "shock_panel",
+                                      .title = "shock on a thin panel in a channel",
+                                      .backends = examples::backends(),
+                                      .defaults = {.spacing = 1e-3, .until = 5e-3, .cfl = 0.4},
+                                      .gas = true,
+                                      .structure = true});
+  std::string scheme = "best", coupling = "staggered", setup = "reference";
+  int elements = 12;
+  bool rigid = false;
+  examples::add_scheme(command_line, scheme);
+  examples::add_coupling(command_line, coupling);
+  command_line.add_choice("--setup", setup, {"reference", "experiment"},
+                          "the reference's channel, or a lower one as in the experiment");
+  command_line.add_whole_number("--elements", elements, {.at_least = 2, .at_most = 200}, "",
+                                "number of elements of the panel");
+  command_line.add_flag("--rigid", rigid, "a panel that does not move");
+  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    const double dx = settings.spacing;
+    for (const double length : {panel_length, setup_named(setup).height})
+      examples::require(dx <= 5e-3 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
+                        "--spacing", dx, "a whole fraction of 50 mm and of the channel's height");
+    examples::require_memory(0.65 * setup_named(setup).height / (dx * dx), dx);
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      examples::with_scheme<sph::PaperScheme<2>, sph::ShockScheme<2>>(scheme, [&]<class Gas>() {
+        if (rigid)
+          rigid_panel<Gas>(s, setup, policy);
+        else
+          flexible_panel<Gas>(s, setup, elements, coupling, policy);
+      });
+    });
+  });
+}
