@@ -122,7 +122,6 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
       lattice.inner_points(between.grown(4.5 * dx) - between.grown(dx / 2), domain, 5 * dx), still,
       {dx}, outside(between.grown(dx / 2)));
   coupling::WettedSurface<3, Policy> surface;
-  std::vector<int> sets;
   const auto wet = [&](const ancf::Grid<ancf::Plate36>& plate, double from, double to) {
     std::vector<Vec<3>> patches;
     for (const Vec<3>& r : lattice.inner_points(sheet, domain))
@@ -136,11 +135,10 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
       own = {cloud.add_virtual(patches, still, {dx})};
     }
     for (const int set : own) surface.tie(cloud, set, coupling::points_of(plate, q, cloud, set), q);
-    sets.insert(sets.end(), own.begin(), own.end());
+    return own;
   };
   const double hinge = 3 + Plates::side + dx / 2;  // particles on it ride on plate I
-  wet(plates.I, 0, hinge);
-  wet(plates.II, hinge, 10);
+  const std::vector<int> sets_I = wet(plates.I, 0, hinge), sets_II = wet(plates.II, hinge, 10);
 
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, 0, -9.81}, .background = still.p};
   sph::Fluid<Gas, Policy, coupling::Riding<3>> fluid(gas, domain, std::move(cloud),
@@ -151,12 +149,11 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   plates.record(session, options.elements);
   session.note("air", "3D, ideal gas gamma 1.4; " + examples::describe<Gas>() + "; coupling " +
                           options.coupling);
-  for (const int k : {0, 1, 2})
-    session.record(std::string("gas_force_") + "xyz"[k], "N", [&fluid, sets, k] {
-      double force = 0;
-      for (const int set : sets) force += fluid.force_on(set)[k];
-      return force;
-    });
+  for (const auto& [name, plate, sets] :
+       {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)}) {
+    examples::record_gas_load(session, name, sets, plate.point(Plates::side / 2, Plates::side / 2));
+    examples::record_total_force(session, name, plate.elements);
+  }
   examples::with_coupling(options.coupling, settings,
                           [&](const auto& scheme) { session.run(scheme, 200, 20); });
   examples::compare_with_motion_without_air(session, options.elements);

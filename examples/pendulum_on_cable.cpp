@@ -170,14 +170,12 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   session.note("air", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>() + "; bars " +
                           examples::format_exact(Pendulum<Measure>::side) + " m deep; coupling " +
                           options.coupling);
-  for (const auto& [name, sets] : {std::pair("AB", sets_AB), std::pair("BC", sets_BC)})
-    for (const int k : {0, 1})
-      session.record(std::string("gas_force_") + name + "_" + "xy"[k], "N",
-                     [&fluid, sets = sets, k] {
-                       double force = 0;
-                       for (const int set : sets) force += fluid.force_on(set)[k];
-                       return Pendulum<Measure>::side * force;
-                     });
+  for (const auto& [name, bar, sets] :
+       {std::tuple("AB", pendulum.AB, sets_AB), std::tuple("BC", pendulum.BC, sets_BC)}) {
+    const auto middle = bar.point((bar.part.start() + bar.part.end()) / 2);
+    examples::record_gas_load(session, name, sets, middle);
+    examples::record_total_force(session, name, std::vector{bar});
+  }
   examples::with_coupling(options.coupling, settings,
                           [&](const auto& scheme) { session.run(scheme, 400, 20); });
   examples::compare_with_motion_without_air(session, options.measure);

@@ -151,7 +151,8 @@ void flexible_panel(const examples::Settings& settings, const std::string& setup
                                   .prototype = Cable{.axial_stiffness = 2.2e11 * panel_thickness,
                                                      .bending_stiffness = setup.stiffness,
                                                      .mass_per_length = 7600 * panel_thickness}});
-  structure.add(mbs::joints::clamped<2>(line.start(), {line.gradient(0)}, structure.q(), "foot"));
+  const int foot = structure.add(
+      mbs::joints::clamped<2>(line.start(), {line.gradient(0)}, structure.q(), "foot"));
 
   Channel<Gas> channel(setup, settings.spacing);
   coupling::WettedSurface<2, Policy> surface;
@@ -165,6 +166,9 @@ void flexible_panel(const examples::Settings& settings, const std::string& setup
   session.note("panel", std::to_string(elements) + " ANCF cable elements, clamped; set-up " +
                             setup_name + "; coupling " + coupling);
   record(session, fluid, channel.panel, setup.height);
+  examples::record_gas_load(session, "panel", channel.panel, line.start());
+  examples::record_total_force(session, "panel", line.elements);
+  examples::record_reaction<mbs::joints::Joint<2>>(session, foot, "force_foot");
   for (const auto& [name, point] :
        {std::pair("tip", line.end()), std::pair("middle", line.point(panel_length / 2))})
     for (const int k : {0, 1})

@@ -102,10 +102,11 @@ void compare_with_motion_without_air(Session<System>& session, int elements) {
                        std::nullopt, unit);
       });
   panels.difference.title = "shift by the air";
-  Panel force{.title = "force of the air on both plates", .x_label = "t [s]", .y_label = "[N]"};
-  for (const char* axis : {"x", "y", "z"})
-    force.curves.push_back(session.history().curve(std::string("gas_force_") + axis, axis));
+  Panel force{.title = "force of the air on the plates", .x_label = "t [s]", .y_label = "[N]"};
+  for (const char* plate : {"I_x", "I_z", "II_x", "II_z"})
+    force.curves.push_back(session.history().curve(std::string("gas_force_") + plate, plate));
   report_interface(session);
+  for (const char* plate : {"I", "II"}) report_noise(session, plate);
   session.curves("trajectories", session.title(),
                  {panels.place, panels.velocity, panels.difference, force}, 2);
   show_motion(session, elements);

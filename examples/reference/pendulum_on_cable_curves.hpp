@@ -91,6 +91,7 @@ void compare_with_motion_without_air(Session<System>& session, const std::string
   for (const char* bar : {"AB_x", "AB_y", "BC_x", "BC_y"})
     force.curves.push_back(session.history().curve(std::string("gas_force_") + bar, bar));
   report_interface(session);
+  for (const char* bar : {"AB", "BC"}) report_noise(session, bar);
   session.curves("trajectories", session.title(),
                  {panels.path, panels.place, panels.difference, force}, 2);
 }

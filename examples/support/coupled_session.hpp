@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -64,6 +65,9 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
 
   std::vector<std::string> write(const std::filesystem::path& folder, const std::string& title,
                                  const std::string& number) {
+    const coupling::NearestGas nearest = nearest_gas(system_.fluid(), system_.surface());
+    nearest_.distance = std::min(nearest_.distance, nearest.distance);
+    nearest_.inside = std::max(nearest_.inside, nearest.inside);
     std::vector<std::string> names = gas_.write(folder, title, number);
     for (std::string& name : bodies_.write(folder, title, number)) names.push_back(std::move(name));
     return names;
@@ -75,6 +79,8 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   void summarise(Summary& s) {
     bodies_.summarise(s);
     gas_.summarise(s);
+    s.results.push_back({"gas_in_bodies", static_cast<double>(nearest_.inside), 0, "particles"});
+    s.results.push_back({"nearest_gas", nearest_.distance, std::nullopt, "spacings"});
   }
 
   const std::vector<Frame>& frames() const { return bodies_.frames(); }
@@ -84,7 +90,62 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   std::size_t noticed_ = 0;  // incidents
   Display<Fluid> gas_;
   Display<Bodies> bodies_;
+  coupling::NearestGas nearest_;  // of all that was written
 };
+
+/// Records in history.csv the gas's force on a body, and its moment about a point of the body:
+/// columns gas_force_<name>_x ... and gas_moment_<name>, in space gas_moment_<name>_x ...
+/// @param sets  of virtual particles that ride on it
+template <class System, int Space>
+void record_gas_load(Session<System>& session, const std::string& name,
+                     const std::vector<int>& sets, const mbs::Marker<Space>& about) {
+  constexpr int dim = System::dim;
+  for (int k = 0; k < dim; ++k)
+    session.record("gas_force_" + name + "_" + "xyz"[k], "N",
+                   [&surface = session.system().surface(), sets, k] {
+                     double force = 0;
+                     for (const int set : sets) force += surface.force_on(set)[k];
+                     return force;
+                   });
+  for (int k = 0; k < (dim == 3 ? 3 : 1); ++k)
+    session.record("gas_moment_" + name + (dim == 3 ? std::string("_") + "xyz"[k] : ""), "N m",
+                   [&system = session.system(), sets, about, k] {
+                     double moment = 0;
+                     for (const int set : sets)
+                       moment += system.surface().moment_on(set, about.at(system.state().q))[k];
+                     return moment;
+                   });
+}
+
+/// Records in history.csv the sum of all forces on a body: of gas, joints, weight, and parts beside
+/// it. Columns total_force_<name>_x ...
+/// @param parts  that the body is made of
+template <class System, class Part>
+void record_total_force(Session<System>& session, const std::string& name,
+                        const std::vector<mbs::Placed<Part>>& parts) {
+  for (int k = 0; k < Part::dim; ++k)
+    session.record("total_force_" + name + "_" + "xyz"[k], "N",
+                   [&system = session.system(), parts, k] {
+                     double force = 0;
+                     for (const auto& part : parts) force += momentum(part, system.state().vdot)[k];
+                     return force;
+                   });
+}
+
+/// Result for the noise of the gas's force on a body: the standard deviation over the last tenth of
+/// the run about parabolas through each of its components, of the mean's magnitude.
+template <class System>
+void report_noise(Session<System>& session, const std::string& name) {
+  const double until = session.settings().until;
+  double mean = 0, variance = 0;
+  for (int k = 0; k < System::dim; ++k) {
+    const Spread spread =
+        spread_of(session.history(), "gas_force_" + name + "_" + "xyz"[k], 0.9 * until, until);
+    mean += spread.mean * spread.mean;
+    variance += spread.deviation * spread.deviation;
+  }
+  session.result("noise_of_gas_force_" + name, std::sqrt(variance / mean), std::nullopt, "-");
+}
 
 /// Result for what the power of the gas on the bodies differs by from what they get.
 template <class System>

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <Eigen/QR>
+
 namespace sphmbs::examples {
 
 void History::add(const std::string& name, const std::string& unit) {
@@ -80,6 +82,25 @@ double rms_difference(const History& history, const std::string& name,
     ++n;
   }
   return n > 0 ? std::sqrt(sum / n) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Spread spread_of(const History& history, const std::string& name, double from, double to) {
+  std::vector<double> s, x;
+  for (std::size_t i = 0; i < history.time().size(); ++i) {
+    const double t = history.time()[i];
+    if (t < from || t > to) continue;
+    s.push_back((t - from) / (to - from));
+    x.push_back(history.of(name)[i]);
+  }
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (s.size() < 4) return {nothing, nothing};
+  const auto n = static_cast<Eigen::Index>(s.size());
+  const Eigen::Map<const Eigen::ArrayXd> at(s.data(), n);
+  const Eigen::Map<const Eigen::VectorXd> value(x.data(), n);
+  Eigen::MatrixX3d powers(n, 3);
+  powers << Eigen::VectorXd::Ones(n), at.matrix(), at.square().matrix();
+  const Eigen::VectorXd rest = value - powers * powers.colPivHouseholderQr().solve(value);
+  return {value.mean(), std::sqrt(rest.squaredNorm() / static_cast<double>(n - 3))};
 }
 
 Curve ReferenceCurve::curve(const std::string& label, double until) const {

@@ -47,6 +47,14 @@ double rms_difference(const History& history, const std::string& name,
                       const std::vector<double>& time, const std::vector<double>& reference,
                       const std::vector<double>& scale, double from, double to);
 
+/// Mean of a quantity over [from, to], and its standard deviation about the parabola that fits it
+/// best there; NaN for fewer than four rows.
+struct Spread {
+  double mean;
+  double deviation;
+};
+Spread spread_of(const History& history, const std::string& name, double from, double to);
+
 /// Times and values of a quantity, published or by another solution.
 struct ReferenceCurve {
   std::vector<double> time;

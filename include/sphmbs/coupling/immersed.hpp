@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <sphmbs/coupling/repetition.hpp>
 #include <sphmbs/coupling/watch.hpp>
 #include <sphmbs/coupling/wetted_surface.hpp>
 #include <sphmbs/mbs/mean_load.hpp>
@@ -87,6 +88,7 @@ class Immersed {
     return surface_.load(forces, t, static_cast<int>(bodies_.state().q.size()));
   }
   mbs::MeanLoad& mean_load() { return mean_load_; }
+  Repetition& repetition() { return repetition_; }
 
   /// The forces that were read have acted for dt, in the middle of which, at time t, they were
   /// read.
@@ -108,6 +110,7 @@ class Immersed {
   Bodies& bodies_;
   Surface& surface_;
   mbs::MeanLoad mean_load_;
+  Repetition repetition_;
   Exchanged<dim> exchanged_;
   Watch<dim> watch_;
 };

@@ -34,6 +34,8 @@ class PointRows {
   }
 
   std::size_t size() const { return points_.size(); }
+  /// From a particle to where the force acts, along the normal [m].
+  double lever(std::size_t i) const { return arms_[i].lever; }
 
   /// Makes the matrices, once all points are there.
   void assemble() {

@@ -5,39 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/coupling/immersed.hpp>
+#include <sphmbs/coupling/repetition.hpp>
 
 namespace sphmbs::coupling {
-
-/// Aitken's relaxation of a repetition x -> F(x): a share of the correction that follows from the
-/// last two (Kuettler and Wall, Comput. Mech. 43, 2008).
-struct Aitken {
-  double first = 1;  // share of the first correction of a step [-]
-  double most = 1.5;
-
-  /// @throws InvalidInput for numbers out of range.
-  void check() const {
-    expects(first > 0 && first <= 1, "first share", first, "above 0 and at most 1");
-    expects(most >= 1, "largest share", most, "at least 1");
-  }
-
-  double share(double last, double change_by_residual, double change_by_change) const {
-    const double share = -last * change_by_residual / change_by_change;
-    return std::isfinite(share) && share > 0 ? std::min(share, most) : first;
-  }
-};
-
-/// A fixed share of each correction.
-struct Relaxation {
-  double first = 0.5;  // [-]
-
-  /// @throws InvalidInput for a share out of range.
-  void check() const { expects(first > 0 && first <= 1, "share", first, "above 0 and at most 1"); }
-  double share(double, double, double) const { return first; }
-};
 
 /// Forces and motion agree within each step: the bodies' way and the gas's forces in its middle are
 /// repeated until the forces no longer change. On its way a wetted particle has in the middle of
@@ -45,10 +20,10 @@ struct Relaxation {
 /// bodies get, to the tolerance (of particles off their material point to second order). Of second
 /// order; for bodies as light as the gas around them. A repetition costs a solution of the
 /// structure and the forces on the wetted particles.
-template <class Relax = Aitken, class Integrator = mbs::GeneralizedAlpha>
+template <RepetitionPolicy Repeat = QuasiNewton, class Integrator = mbs::GeneralizedAlpha>
 struct Strong {
   Integrator structure = {};
-  Relax relax = {};
+  Repeat repeat = {};
   double tolerance = 1e-11;  // of the forces, relative [-]
   int most = 50;             // repetitions
   double slack = 0.03;       // of a smoothing length, for bodies to change their way by [-]
@@ -56,7 +31,7 @@ struct Strong {
   /// @throws InvalidInput for numbers out of range.
   void check() const {
     structure.check();
-    relax.check();
+    repeat.check();
     expects(!structure.accuracy, "accuracy of the structure's integrator", *structure.accuracy,
             "none: the gas decides on the step");
     expects(structure.spectral_radius < 1, "spectral_radius", structure.spectral_radius,
@@ -78,15 +53,16 @@ struct Strong {
     fluid.stage(dt / 2, dt / 2, slack * system.surface().smoothing_length());
     fluid.follow(dt / 2);
     system.read();
+    system.repetition().begin();
     using Forces = std::vector<Vec<System::dim>>;
-    Forces x = system.surface().forces(), last;
-    double share = relax.first;
+    Forces x = system.surface().forces();
+    mbs::State guess = old;
     mbs::VectorXd last_way;
     for (int k = 0;; ++k) {
       const mbs::VectorXd Q = system.load_at(middle, x);
       auto end = system.mean_load().at_end(structure, Q, dt);
       body.equations().external_force() = end.load;
-      auto next = structure.attempt(body, dt);
+      auto next = structure.attempt(body, dt, guess);
       if (!next.course.converged)
         throw NumericalFailure("t = " + std::to_string(system.time()) +
                                " s: Newton's method fails within a strongly coupled step of " +
@@ -101,18 +77,8 @@ struct Strong {
       fluid.follow(dt / 2);
       system.read();
       const Forces& now = system.surface().forces();
-      double norm = 0, size = 0, by_residual = 0, by_change = 0;
-      Forces residual(now.size());
-      for (std::size_t i = 0; i < now.size(); ++i) {
-        residual[i] = now[i] - x[i];
-        norm += norm2(residual[i]);
-        size += norm2(now[i]);
-        if (last.empty()) continue;
-        const Vec<System::dim> change = residual[i] - last[i];
-        by_residual += dot(last[i], change);
-        by_change += norm2(change);
-      }
-      if (rests || norm <= tolerance * tolerance * size) {
+      const double off = (flat(now) - flat(x)).norm(), size = flat(now).norm();
+      if (rests || off <= tolerance * size) {
         fluid.rates(0);
         body.accept(std::move(next.state), std::move(next.algorithmic));
         system.mean_load().accept(std::move(end), dt);
@@ -127,12 +93,25 @@ struct Strong {
         throw NumericalFailure(
             "t = " + std::to_string(system.time()) + " s: forces and motion do not agree after " +
             std::to_string(most) + " repetitions, the last change of the forces being " +
-            std::to_string(std::sqrt(norm / size)) +
-            " of them; try a smaller --cfl, a smaller first share or a larger tolerance");
-      if (!last.empty()) share = relax.share(share, by_residual, by_change);
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * residual[i];
-      last = std::move(residual);
+            std::to_string(off / size) + " of them; try a smaller --cfl or a larger tolerance");
+      flat(x) = repeat.next(flat(x), flat(now), system.repetition());
+      guess = std::move(next.state);
     }
+  }
+
+ private:
+  template <int Dim>
+  static auto flat(std::vector<Vec<Dim>>& forces) {
+    return Eigen::Map<mbs::VectorXd>(forces[0].component, numbers(forces));
+  }
+  template <int Dim>
+  static auto flat(const std::vector<Vec<Dim>>& forces) {
+    return Eigen::Map<const mbs::VectorXd>(forces[0].component, numbers(forces));
+  }
+  template <int Dim>
+  static Eigen::Index numbers(const std::vector<Vec<Dim>>& forces) {
+    static_assert(sizeof(Vec<Dim>) == Dim * sizeof(double));
+    return static_cast<Eigen::Index>(forces.size()) * Dim;
   }
 };
 

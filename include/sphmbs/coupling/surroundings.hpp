@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +37,11 @@ struct Seen {
     const double along = dot(d, normal);
     const bool beside = norm2(d - along * normal) > 0.5625 * spacing * spacing;
     return beside || along < (sheet ? -0.5 : -2.0) * spacing ? 1e300 : along - depth;
+  }
+
+  /// Whether gas at a point is in the body, by more than the disorder of particles explains.
+  bool holds(const Vec<Dim>& x) const {
+    return solid() ? gap_to_point(x) < -0.25 * spacing : norm2(r - x) < 0.0625 * spacing * spacing;
   }
 
   /// The gap between two surfaces [m]: along the normal where both are known and face each other,
@@ -186,5 +193,25 @@ class Surroundings {
   std::vector<Seen<Dim>> gas_;
   std::map<int, Cell> periods_;
 };
+
+/// How near gas is to the particles of bodies.
+struct NearestGas {
+  double distance = std::numeric_limits<double>::infinity();  // of centres, in spacings of the body
+  int inside = 0;                                             // gas particles within bodies
+};
+
+/// Looks at all of it, on the host.
+template <class Fluid, class Surface>
+NearestGas nearest_gas(Fluid& fluid, const Surface& surface) {
+  constexpr int Dim = Fluid::dim;
+  NearestGas nearest;
+  std::set<std::uint32_t> inside;
+  Surroundings<Dim>(fluid, surface, true).for_gas([&](const Seen<Dim>& p, const Seen<Dim>& gas) {
+    nearest.distance = std::min(nearest.distance, std::sqrt(norm2(p.r - gas.r)) / p.spacing);
+    if (p.holds(gas.r)) inside.insert(gas.id);
+  });
+  nearest.inside = static_cast<int>(inside.size());
+  return nearest;
+}
 
 }  // namespace sphmbs::coupling

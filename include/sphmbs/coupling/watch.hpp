@@ -39,9 +39,7 @@ class Watch {
   void begin(Fluid& fluid, const Surface& surface) {
     const Surroundings<Dim> bodies(fluid, surface, true);
     bodies.for_gas([&](const Seen<Dim>& p, const Seen<Dim>& gas) {
-      const bool inside = p.solid() ? p.gap_to_point(gas.r) < -0.25 * p.spacing
-                                    : std::sqrt(norm2(p.r - gas.r)) < 0.25 * p.spacing;
-      expects(!inside,
+      expects(!p.holds(gas.r),
               "distance at the start of gas particle #" + std::to_string(gas.id) +
                   " from virtual particle " + p.name(),
               said(std::sqrt(norm2(p.r - gas.r))), "such that it is not in the body [m]");

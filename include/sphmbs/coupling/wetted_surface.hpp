@@ -168,15 +168,25 @@ class WettedSurface {
   /// Force of the gas on a set of particles, of those that were read [N].
   /// @throws InvalidInput for a set that rides on nothing.
   Vec<Dim> force_on(int set) const {
-    for (const Range& range : sets_)
-      if (range.set == set) {
-        Vec<Dim> sum{};
-        for (std::size_t i = range.first; i < range.last && i < force_.size(); ++i)
-          sum += force_[i];
-        return sum;
-      }
-    expects(false, "set of virtual particles", set, "one that rides on a body");
-    return {};
+    Vec<Dim> sum{};
+    for_forces(set, [&](std::size_t i) { sum += force_[i]; });
+    return sum;
+  }
+
+  /// Moment of these forces about a point, where the particles were at the last departure [N m].
+  /// @throws InvalidInput for a set that rides on nothing.
+  mbs::Vector<Dim == 3 ? 3 : 1> moment_on(int set, const mbs::Vector<space>& about) const {
+    mbs::Vector<Dim == 3 ? 3 : 1> sum = mbs::Vector < Dim == 3 ? 3 : 1 > ::Zero();
+    for_forces(set, [&](std::size_t i) {
+      const auto n = in_space<space>(way_[i].n), f = in_space<space>(force_[i]);
+      mbs::Vector<space> arm = in_space<space>(way_[i].r) - about;
+      if (rows_.lever(i) != 0) arm += rows_.lever(i) * n.normalized();
+      if constexpr (Dim == 3)
+        sum += arm.cross(f);
+      else
+        sum[0] += arm[0] * f[1] - arm[1] * f[0];
+    });
+    return sum;
   }
 
  private:
@@ -185,6 +195,14 @@ class WettedSurface {
     std::size_t first, last;
     double depth;  // [m]
   };
+
+  template <class Visit>
+  void for_forces(int set, const Visit& visit) const {
+    const auto range = std::find_if(sets_.begin(), sets_.end(),
+                                    [&](const Range& candidate) { return candidate.set == set; });
+    expects(range != sets_.end(), "set of virtual particles", set, "one that rides on a body");
+    for (std::size_t i = range->first; i < std::min(range->last, force_.size()); ++i) visit(i);
+  }
 
   static void check_place(const WettedPoint<space>& point, const mbs::VectorXd& q,
                           const particles::Cloud<Dim>& cloud, std::size_t i,

@@ -74,32 +74,40 @@ struct GeneralizedAlpha {
   };
 
   /// Tries a step of length h [s] and leaves the system's state as it is. Factors of an earlier
-  /// state may mislead Newton's method: it has a second try with new ones.
+  /// state, or a guess, may mislead Newton's method: it has a second try with new ones from the
+  /// state.
+  /// @param guess  of accelerations and multipliers at the end of the step
   template <class System>
-  Attempt attempt(System& system, double h) const {
-    Attempt first = attempt_once(system, h);
+  Attempt attempt(System& system, double h, const State& guess) const {
+    Attempt first = attempt_once(system, h, guess);
     if (first.course.converged || first.course.singular) return first;
     system.factors().forget();
-    return attempt_once(system, h);
+    return attempt_once(system, h, system.state());
+  }
+  /// From those of the last step.
+  template <class System>
+  Attempt attempt(System& system, double h) const {
+    return attempt(system, h, system.state());
   }
 
  private:
   template <class System>
-  Attempt attempt_once(System& system, double h) const {
+  Attempt attempt_once(System& system, double h, const State& guess) const {
     const auto [alpha_m, alpha_f, gamma, beta] = coefficients();
     const MatrixWeights w{(1 - alpha_m) / (h * h * beta * (1 - alpha_f)), gamma / (h * beta)};
     const State& old = system.state();
     Attempt next{old, system.algorithmic_acceleration(h), {}, {}};
     const VectorXd& a = next.before;
-    // The guess for vdot is that of the last step.
+    next.state.vdot = guess.vdot;
+    next.state.lambda = guess.lambda;
     next.algorithmic =
-        (alpha_f * old.vdot - alpha_m * a + (1 - alpha_f) * old.vdot) / (1 - alpha_m);
+        (alpha_f * old.vdot - alpha_m * a + (1 - alpha_f) * guess.vdot) / (1 - alpha_m);
     next.state.t += h;
     next.state.q += h * old.v + h * h * ((0.5 - beta) * a + beta * next.algorithmic);
     next.state.v += h * ((1 - gamma) * a + gamma * next.algorithmic);
     next.course =
         newton_solve(system.equations(), system.factors(), next.state, w, newton, system.size());
-    next.algorithmic += (1 - alpha_f) / (1 - alpha_m) * (next.state.vdot - old.vdot);
+    next.algorithmic += (1 - alpha_f) / (1 - alpha_m) * (next.state.vdot - guess.vdot);
     if (next.course.converged && project) project_rates(system, next, w);
     system.counts().iterations += static_cast<long>(next.course.iterations.size());
     return next;

@@ -88,4 +88,11 @@ struct Placed {
   }
 };
 
+/// Momentum of a part whose structure has rates v [kg m/s]; of accelerations, the sum of all forces
+/// on it [N].
+template <Part P>
+Vector<P::dim> momentum(const Placed<P>& placed, VectorIn v) {
+  return P::translation().transpose() * (placed.part.mass_matrix() * placed.local(v));
+}
+
 }  // namespace sphmbs::mbs

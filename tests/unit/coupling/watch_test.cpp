@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What happens to bodies that the equations do not know of is said.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,14 @@ class TwoDisks {
     coupling::Immersed system(fluid, bodies, surface_);
     sphmbs::run(system, coupling::Staggered<>{}, {.until = until}, sphmbs::no_report);
     return system.incidents();
+  }
+
+  /// How near the gas is at the start.
+  coupling::NearestGas nearest() {
+    Fluid fluid(Gas{.eos = {.gamma = 1.4}, .background = 1}, domain_, cloud_, surface_.motion());
+    const mbs::VectorXd still = mbs::VectorXd::Zero(structure_.coordinates());
+    surface_.depart(0, structure_.q(), still, still);
+    return nearest_gas(fluid, surface_);
   }
 
  private:
@@ -134,4 +143,24 @@ TEST_CASE("a body that leaves through a periodic side says so each time", "[coup
   CHECK(all[1].time == Approx(12).margin(1.3));  // by its first particle
   CHECK(all[0].kind == "set 1 through a periodic side");
   CHECK(test::mentions(all[0].text, {"set 1", "lower side along y"}));
+}
+
+TEST_CASE("gas in bodies is counted", "[coupling]") {
+  const auto outside = TwoDisks({1, 1.5}, {2.4, 1.5}, {0, 0}).nearest();
+  CHECK(outside.inside == 0);
+  CHECK(outside.distance == Approx(1).epsilon(1e-9));
+  // Of a lattice all over, on which the disks' particles lie: those below the surface, more or less
+  // as deep as a quarter of a spacing.
+  const auto within = TwoDisks({1, 1.5}, {2.4, 1.5}, {0, 0}, true).nearest();
+  CHECK(within.distance == Approx(0).margin(1e-9));
+  const auto below = [](double depth) {
+    int count = 0;
+    for (int i = 0; i < 40; ++i)
+      for (int j = 0; j < 30; ++j)
+        for (const double x : {1.0, 2.4})
+          count += std::hypot(0.05 + 0.1 * i - x, 0.05 + 0.1 * j - 1.5) < 0.4 - depth ? 1 : 0;
+    return count;
+  };
+  CHECK(within.inside >= below(0.05));
+  CHECK(within.inside <= below(0));
 }

@@ -212,4 +212,19 @@ TEST_CASE("a reference is compared at its own times") {
   CHECK(shown.y == std::vector<double>{1, 3});
 }
 
+TEST_CASE("the spread of a quantity is about its parabola", "[examples]") {
+  History history;
+  history.add("force", "N");
+  double sum = 0;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 0.01 * i, value = 3 + 2 * t - 5 * t * t + (i % 2 == 0 ? 0.1 : -0.1);
+    history.row(t, {value});
+    if (i >= 20) sum += value;
+  }
+  const Spread spread = spread_of(history, "force", 0.2 - 1e-9, 1);
+  CHECK(spread.mean == Approx(sum / 81));
+  CHECK(spread.deviation == Approx(0.1).epsilon(0.03));
+  CHECK(std::isnan(spread_of(history, "force", 0.2, 0.22).deviation));
+}
+
 }  // namespace sphmbs::examples

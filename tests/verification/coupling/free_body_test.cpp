@@ -136,6 +136,7 @@ TEST_CASE("a body much lighter than the gas needs the strong coupling", "[coupli
   CHECK(staggered > 0.05);
   CHECK(speed(coupling::Strong<>{}) < 0.01);
   CHECK(speed(coupling::Strong<coupling::Relaxation>{}) < 0.01);
+  CHECK(speed(coupling::Strong<coupling::Aitken>{}) < 0.01);
 }
 
 TEST_CASE("coupled runs have the same bits on any number of threads", "[coupling]") {
