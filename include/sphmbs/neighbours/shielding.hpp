@@ -79,17 +79,25 @@ struct JudgePairs {
     const auto& fields = listed.fields;
     const bool gas_a = !particles::is_virtual(fields.set[a]);
     const bool gas_b = !particles::is_virtual(fields.set[b]);
-    if (gas_a && fields.sheet[b] != particles::no_sheet) return listed.in_front(b, a);
-    if (gas_b && fields.sheet[a] != particles::no_sheet) return listed.in_front(a, b);
+    if (gas_a && fields.sheet[b] != particles::no_sheet) return sees_layer(a, b);
+    if (gas_b && fields.sheet[a] != particles::no_sheet) return sees_layer(b, a);
     if (!gas_a && !gas_b && fields.set[a] != fields.set[b])
       return fields.sheet[a] == particles::no_sheet && fields.sheet[b] == particles::no_sheet;
     if (!gas_a || !gas_b) return true;
     // From the particle that was first, so that rounding decides alike for both.
     const bool in_order = fields.id[a] < fields.id[b];
-    const std::size_t from = in_order ? a : b;
-    const std::size_t to = in_order ? b : a;
-    return !((near[a] != 0 && listed.hidden(a, from, to)) ||
-             (near[b] != 0 && listed.hidden(b, from, to)));
+    return in_order ? !parted(a, b) : !parted(b, a);
+  }
+
+  /// Whether a patch lies between the two.
+  SPHMBS_INLINE bool parted(std::size_t a, std::size_t b) const {
+    return (near[a] != 0 && listed.hidden(a, a, b)) || (near[b] != 0 && listed.hidden(b, a, b));
+  }
+
+  // Layers behind a sheet take the place of the gas that it hides: past its rim, gas is seen.
+  SPHMBS_INLINE bool sees_layer(std::size_t gas, std::size_t layer) const {
+    return listed.in_front(layer, gas) &&
+           (!(listed.fields.depth[layer] > T(0)) || parted(gas, layer));
   }
 };
 

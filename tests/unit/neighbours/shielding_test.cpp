@@ -141,6 +141,25 @@ TEMPLATE_LIST_TEST_CASE("gas sees the layers of its own side alone, and pairs se
   }
 }
 
+TEMPLATE_LIST_TEST_CASE("layers behind a thin body are seen where it hides the gas there",
+                        "[neighbours]", test::Policies) {
+  const Case<2> c(false);
+  const auto pairs = listed<2, TestType>(c);
+  std::size_t through = 0, past = 0;
+  for (std::uint32_t a = 0; a < c.gas; ++a)
+    for (auto b = static_cast<std::uint32_t>(c.gas); b < c.cloud.size(); ++b) {
+      const Vec<2>&x = c.cloud.r[a], &y = c.cloud.r[b];
+      const bool own_side = (c.cloud.normal[b][1] > 0) == (x[1] > 0.6);
+      if (length(x - y) >= reach || !own_side || c.cloud.depth[b] == 0) continue;
+      const bool crosses = c.crosses(x, y);
+      if (crosses != c.crosses(x, y, 0.03 * spacing)) continue;
+      (crosses ? through : past) += 1;
+      REQUIRE(pairs.count({a, b}) == (crosses ? 1 : 0));
+    }
+  CHECK(through > 100);
+  CHECK(past > 10);
+}
+
 TEST_CASE("a thin body on a line hides one side from the other", "[neighbours]") {
   test::Random random(92);
   for (int i = 0; i < 50; ++i) {
