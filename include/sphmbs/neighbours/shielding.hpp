@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sphmbs/execution/field.hpp>
+#include <sphmbs/execution/scan.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/particles.hpp>
 
@@ -9,13 +10,13 @@ namespace sphmbs::neighbours {
 
 namespace detail {
 
-/// Lists as they are, and what they are judged by.
+/// Particles and, of each, the patches in its list.
 template <int Dim, class T>
 struct ListedSheets {
   particles::FieldsView<Dim, T> fields;
   geometry::Periodicity<Dim, T> space;
   const std::uint64_t* first;
-  const std::uint32_t* list;
+  const std::uint32_t* patches;
 
   SPHMBS_INLINE Vec<Dim, T> way(std::size_t a, std::size_t b) const {
     return space.nearest(fields.position(b) - fields.position(a));
@@ -43,22 +44,28 @@ struct ListedSheets {
   /// Whether a patch in the list of `owner` lies between a and b.
   SPHMBS_INLINE bool hidden(std::size_t owner, std::size_t a, std::size_t b) const {
     for (std::uint64_t k = first[owner]; k < first[owner + 1]; ++k)
-      if (fields.sheet[list[k]] == particles::sheet_patch && blocks(list[k], a, b)) return true;
+      if (blocks(patches[k], a, b)) return true;
     return false;
   }
 };
 
-/// Notes which particles have patches in their lists.
-template <int Dim, class T>
-struct FindPatches {
-  ListedSheets<Dim, T> listed;
-  std::uint8_t* near;
+/// Counts the patches in each particle's list or, where there is room for them, copies them.
+struct PickPatches {
+  const std::uint8_t* sheet;
+  const std::uint64_t* first;
+  const std::uint32_t* list;
+  std::uint32_t* count;
+  const std::uint64_t* room = nullptr;
+  std::uint32_t* patches = nullptr;
 
   SPHMBS_INLINE void operator()(std::size_t a) const {
-    std::uint8_t found = 0;
-    for (std::uint64_t k = listed.first[a]; k < listed.first[a + 1]; ++k)
-      if (listed.fields.sheet[listed.list[k]] == particles::sheet_patch) found = 1;
-    near[a] = found;
+    std::uint32_t found = 0;
+    for (std::uint64_t k = first[a]; k < first[a + 1]; ++k) {
+      if (sheet[list[k]] != particles::sheet_patch) continue;
+      if (patches != nullptr) patches[room[a] + found] = list[k];
+      ++found;
+    }
+    count[a] = found;
   }
 };
 
@@ -66,12 +73,12 @@ struct FindPatches {
 template <int Dim, class T>
 struct JudgePairs {
   ListedSheets<Dim, T> listed;
-  const std::uint8_t* near;
+  const std::uint64_t* first;
+  const std::uint32_t* list;
   std::uint8_t* keep;
 
   SPHMBS_INLINE void operator()(std::size_t a) const {
-    for (std::uint64_t k = listed.first[a]; k < listed.first[a + 1]; ++k)
-      keep[k] = seen(a, listed.list[k]) ? 1 : 0;
+    for (std::uint64_t k = first[a]; k < first[a + 1]; ++k) keep[k] = seen(a, list[k]) ? 1 : 0;
   }
 
  private:
@@ -91,7 +98,7 @@ struct JudgePairs {
 
   /// Whether a patch lies between the two.
   SPHMBS_INLINE bool parted(std::size_t a, std::size_t b) const {
-    return (near[a] != 0 && listed.hidden(a, a, b)) || (near[b] != 0 && listed.hidden(b, a, b));
+    return listed.hidden(a, a, b) || listed.hidden(b, a, b);
   }
 
   // Layers behind a sheet take the place of the gas that it hides: past its rim, gas is seen.
@@ -126,11 +133,19 @@ void shield(particles::Particles<Dim, T, Policy>& particles,
             const geometry::Periodicity<Dim, T>& space, const std::uint64_t* first,
             std::uint32_t* list, std::uint64_t pairs, std::uint64_t* last) {
   const std::size_t n = particles.size();
-  const detail::ListedSheets<Dim, T> listed{particles.fields(), space, first, list};
-  execution::Field<std::uint8_t, Policy> near(n);
+  const auto fields = particles.fields();
+  execution::Field<std::uint32_t, Policy> count(n);
+  execution::Field<std::uint64_t, Policy> room(n + 1);
+  detail::PickPatches pick{fields.sheet, first, list, count.data()};
+  Policy::for_each(n, pick);
+  execution::Field<std::uint32_t, Policy> patches(
+      execution::exclusive_scan<Policy>(n, count.data(), room.data()));
+  pick.room = room.data();
+  pick.patches = patches.data();
+  Policy::for_each(n, pick);
+  const detail::ListedSheets<Dim, T> listed{fields, space, room.data(), patches.data()};
   execution::Field<std::uint8_t, Policy> keep(pairs);
-  Policy::for_each(n, detail::FindPatches<Dim, T>{listed, near.data()});
-  Policy::for_each(n, detail::JudgePairs<Dim, T>{listed, near.data(), keep.data()});
+  Policy::for_each(n, detail::JudgePairs<Dim, T>{listed, first, list, keep.data()});
   Policy::for_each(n, detail::ClosePairs{first, keep.data(), list, last});
 }
 
