@@ -53,7 +53,7 @@ void accelerated_cylinder(const examples::Settings& settings, const Start& start
   if constexpr (Gas::Wall::surfaces) gas.background = still.p;
   sph::Fluid<Gas, Policy, coupling::Riding<2>> fluid(gas, domain, std::move(cloud),
                                                      surface.motion(), policy);
-  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU, Policy> bodies(structure);
+  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
 
   examples::Session session(settings, "accelerated_cylinder", "a cylinder set in motion in gas",

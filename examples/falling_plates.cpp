@@ -79,11 +79,10 @@ struct Plates {
   }
 };
 
-template <class Policy>
-void without_air(examples::Settings settings, const Options& options, Policy) {
+void without_air(examples::Settings settings, const Options& options) {
   if (!settings.step) settings.step = 5e-4;
   Plates plates(options.elements);
-  Dynamics<Plates::Mechanism, solvers::SparseLDLT, Policy> system(plates.mechanism);
+  Dynamics<Plates::Mechanism, solvers::SparseLDLT> system(plates.mechanism);
   examples::Session session(settings, "falling_plates", "two hinged plates", system);
   plates.record(session, options.elements);
   session.note("air", "none (--no-air)");
@@ -143,7 +142,7 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, 0, -9.81}, .background = still.p};
   sph::Fluid<Gas, Policy, coupling::Riding<3>> fluid(gas, domain, std::move(cloud),
                                                      surface.motion(), policy);
-  Dynamics<Plates::Mechanism, solvers::SparseLDLT, Policy> bodies(plates.mechanism);
+  Dynamics<Plates::Mechanism, solvers::SparseLDLT> bodies(plates.mechanism);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "falling_plates", "two hinged plates in air", system);
   plates.record(session, options.elements);
@@ -176,12 +175,12 @@ int main(int argc, char** argv) {
   examples::add_scheme(command_line, options.scheme);
   examples::add_coupling(command_line, options.coupling);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+    if (options.no_air)
+      return examples::with_host_backend(settings,
+                                         [&](const auto& s, auto) { without_air(s, options); });
     examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (options.no_air)
-        without_air(s, options, policy);
-      else
-        examples::with_scheme<sph::PaperScheme<3>, sph::SmoothScheme<3>>(
-            options.scheme, [&]<class Gas>() { in_air<Gas>(s, options, policy); });
+      examples::with_scheme<sph::PaperScheme<3>, sph::SmoothScheme<3>>(
+          options.scheme, [&]<class Gas>() { in_air<Gas>(s, options, policy); });
     });
   });
 }

@@ -45,14 +45,14 @@ int main(int argc, char** argv) {
   int elements = 12;
   examples::CommandLine command_line({.name = "flexible_pendulum",
                                       .title = "soft flexible pendulum",
-                                      .backends = examples::backends(),
+                                      .backends = examples::host_backends(),
                                       .defaults = {.until = 1, .step = 2.5e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--elements", elements, {.at_least = 2, .at_most = 1000}, "",
                                 "number of elements");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(
+    examples::with_host_backend(
         settings, [&](const auto& s, auto policy) { flexible_pendulum(s, elements, policy); });
   });
 }

@@ -62,7 +62,7 @@ void gas_spring(const examples::Settings& settings, const Swing& swing, const st
               structure.q());
   sph::Fluid<Gas, Policy, coupling::Riding<1>> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
                                                      std::move(cloud), surface.motion(), policy);
-  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU, Policy> bodies(structure);
+  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
 
   examples::Session session(settings, "gas_spring", "a piston between two columns of gas", system);

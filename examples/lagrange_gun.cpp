@@ -60,7 +60,7 @@ void lagrange_gun(const examples::Settings& settings, const std::string& couplin
               gun.q());
   sph::Fluid<Gas, Policy, coupling::Riding<dim>> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
                                                        std::move(cloud), surface.motion(), policy);
-  mbs::Dynamics<decltype(gun), mbs::solvers::SparseLU, Policy> bodies(gun);
+  mbs::Dynamics<decltype(gun), mbs::solvers::SparseLU> bodies(gun);
   coupling::Immersed system(fluid, bodies, surface);
 
   examples::Session session(settings, case_name, title, system);

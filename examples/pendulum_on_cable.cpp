@@ -83,12 +83,11 @@ struct Pendulum {
   }
 };
 
-template <class Measure, class Policy>
-void without_air(examples::Settings settings, const Options& options, Policy) {
+template <class Measure>
+void without_air(examples::Settings settings, const Options& options) {
   if (!settings.step) settings.step = 2.5e-4;
   Pendulum<Measure> pendulum(options.elements);
-  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT, Policy> system(
-      pendulum.mechanism);
+  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT> system(pendulum.mechanism);
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable", system);
   pendulum.record(session, options);
   session.note("air", "none (--no-air)");
@@ -161,8 +160,7 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, -9.81}, .background = still.p};
   sph::Fluid<Gas, Policy, coupling::Riding<2>> fluid(gas, domain, std::move(cloud),
                                                      surface.motion(), policy);
-  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT, Policy> bodies(
-      pendulum.mechanism);
+  Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT> bodies(pendulum.mechanism);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable in air",
                             system);
@@ -199,18 +197,21 @@ int main(int argc, char** argv) {
   examples::add_scheme(command_line, options.scheme);
   examples::add_coupling(command_line, options.coupling);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    const auto simulate = [&]<class Measure>(const auto& s, auto policy) {
-      if (options.no_air)
-        without_air<Measure>(s, options, policy);
+    const auto with_measure = [&](const auto& simulate) {
+      if (options.measure == "green")
+        simulate.template operator()<ancf::Green>();
       else
+        simulate.template operator()<ancf::Engineering>();
+    };
+    if (options.no_air)
+      return examples::with_host_backend(settings, [&](const auto& s, auto) {
+        with_measure([&]<class Measure>() { without_air<Measure>(s, options); });
+      });
+    examples::with_backend(settings, [&](const auto& s, auto policy) {
+      with_measure([&]<class Measure>() {
         examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
             options.scheme, [&]<class Gas>() { in_air<Measure, Gas>(s, options, policy); });
-    };
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
-      if (options.measure == "green")
-        simulate.template operator()<ancf::Green>(s, policy);
-      else
-        simulate.template operator()<ancf::Engineering>(s, policy);
+      });
     });
   });
 }

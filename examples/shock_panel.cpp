@@ -160,7 +160,7 @@ void flexible_panel(const examples::Settings& settings, const std::string& setup
     surface.tie(channel.cloud, set, coupling::points_of(line, structure.q(), channel.cloud, set),
                 structure.q());
   auto fluid = channel.fluid(surface.motion(), policy);
-  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLDLT, Policy> bodies(structure);
+  mbs::Dynamics<decltype(structure), mbs::solvers::SparseLDLT> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "shock_panel", "shock on a flexible panel", system);
   session.note("panel", std::to_string(elements) + " ANCF cable elements, clamped; set-up " +

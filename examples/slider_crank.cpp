@@ -83,14 +83,14 @@ int main(int argc, char** argv) {
   int halvings = 0;
   examples::CommandLine command_line({.name = "slider_crank",
                                       .title = "slider-crank under a constant torque",
-                                      .backends = examples::backends(),
+                                      .backends = examples::host_backends(),
                                       .defaults = {.until = 1, .step = 1e-3, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_whole_number("--halvings", halvings, {.at_least = 0, .at_most = 6}, "",
                                 "runs again with so many halved steps, and shows the order");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings,
-                           [&](const auto& s, auto policy) { slider_crank(s, halvings, policy); });
+    examples::with_host_backend(
+        settings, [&](const auto& s, auto policy) { slider_crank(s, halvings, policy); });
   });
 }

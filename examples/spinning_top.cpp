@@ -39,14 +39,14 @@ int main(int argc, char** argv) {
   double spin = 150;
   examples::CommandLine command_line({.name = "spinning_top",
                                       .title = "heavy top that turns about a fixed point",
-                                      .backends = examples::backends(),
+                                      .backends = examples::host_backends(),
                                       .defaults = {.until = 2, .step = 1e-4, .threads = 1},
                                       .gas = false,
                                       .structure = true});
   command_line.add_number("--spin", spin, {.at_least = -1000, .at_most = 1000}, "rad/s",
                           "angular velocity about the axis of the top");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings,
-                           [&](const auto& s, auto policy) { spinning_top(s, spin, policy); });
+    examples::with_host_backend(settings,
+                                [&](const auto& s, auto policy) { spinning_top(s, spin, policy); });
   });
 }

@@ -9,8 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
-#include <sphmbs/execution/openmp.hpp>
-#include <sphmbs/execution/serial.hpp>
+#include <sphmbs/execution/compiled.hpp>
 
 namespace bench {
 
@@ -44,23 +43,25 @@ benchmark::internal::Benchmark* add(const std::string& name, int threads, Run ru
       ->Unit(benchmark::kMillisecond);
 }
 
-/// Calls each(policy, its name, OpenMP threads) for one thread without OpenMP and for all of them
-/// with it.
+/// Calls each(policy, its name, OpenMP threads) for every policy of this build, OpenMP on all
+/// threads.
 template <class Each>
 void for_policies(Each each) {
   using namespace sphmbs::execution;
-  each(Serial{}, std::string(Serial::name), 1);
-  each(OpenMP{}, std::string(OpenMP::name), omp_get_max_threads());
+  for_compiled([&]<class Policy>(Policy policy) {
+    each(policy, std::string(Policy::name),
+         std::is_same_v<Policy, Serial> ? 1 : omp_get_max_threads());
+  });
 }
 
 /// As `for_policies`, with OpenMP on one thread, two, and all of them.
 template <class Each>
 void for_policies_and_threads(Each each) {
-  using namespace sphmbs::execution;
-  each(Serial{}, std::string(Serial::name), 1);
-  const std::set<int> counts{1, 2, omp_get_max_threads()};
-  for (const int threads : counts)
-    each(OpenMP{}, std::string(OpenMP::name) + "/threads:" + std::to_string(threads), threads);
+  for_policies([&]<class Policy>(Policy policy, const std::string& name, int all) {
+    if (name != "openmp") return each(policy, name, all);
+    for (const int threads : std::set<int>{1, 2, all})
+      each(policy, name + "/threads:" + std::to_string(threads), threads);
+  });
 }
 
 /// A whole number known when the program is compiled.

@@ -6,8 +6,7 @@
 
 #include <omp.h>
 
-#include <sphmbs/execution/openmp.hpp>
-#include <sphmbs/execution/serial.hpp>
+#include <sphmbs/execution/compiled.hpp>
 
 #include "support/settings.hpp"
 
@@ -15,19 +14,68 @@ namespace sphmbs::examples {
 
 /// The execution policies that the example programs are compiled with, the default first.
 inline std::vector<std::string> backends() {
-  return {std::string(execution::OpenMP::name), std::string(execution::Serial::name)};
+  std::vector<std::string> names;
+  execution::for_compiled([&](auto policy) { names.emplace_back(policy.name); });
+  return names;
+}
+
+/// Those that run on the host, for bodies alone, which have no work for a device.
+inline std::vector<std::string> host_backends() {
+  std::vector<std::string> names;
+  execution::for_compiled([&]<class Policy>(Policy policy) {
+    if (execution::on_host<Policy>) names.emplace_back(policy.name);
+  });
+  return names;
 }
 
 /// Calls run(settings, policy) with the policy the settings name, on as many threads as they say.
+/// @throws InvalidInput where its device is missing.
 template <class Run>
 void with_backend(const Settings& settings, Run&& run) {
-  if (settings.backend == execution::Serial::name) {
-    Settings one = settings;
-    one.threads = 1;
-    run(one, execution::Serial{});
+  execution::with_policy(settings.backend, [&]<class Policy>(Policy policy) {
+    Settings adapted = settings;
+    if constexpr (std::is_same_v<typename Policy::Host, execution::Serial>) adapted.threads = 1;
+    if constexpr (!execution::on_host<Policy>) Policy::device();
+    omp_set_num_threads(adapted.threads);
+    run(adapted, policy);
+  });
+}
+
+/// The same for policies of the host alone.
+template <class Run>
+void with_host_backend(const Settings& settings, Run&& run) {
+  with_backend(settings, [&]<class Policy>(const Settings& adapted, Policy policy) {
+    if constexpr (execution::on_host<Policy>)
+      run(adapted, policy);
+    else
+      require(false, "--backend", settings.backend,
+              "a policy of the host: bodies alone have no work for a device");
+  });
+}
+
+/// "openmp, 2 threads".
+inline std::string threads_of(const Settings& settings) {
+  return settings.backend + ", " + std::to_string(settings.threads) +
+         (settings.threads == 1 ? " thread" : " threads");
+}
+
+/// Where the loops of a policy run, in words, and how much memory there is for particles [bytes]; 0
+/// where it is not known.
+struct Where {
+  std::string name;
+  double memory;
+};
+
+template <class Policy>
+Where where(const Settings& settings) {
+  if constexpr (execution::on_host<Policy>) {
+    return {threads_of(settings), memory_of_host()};
   } else {
-    omp_set_num_threads(settings.threads);
-    run(settings, execution::OpenMP{});
+    const auto device = Policy::device();
+    const double free = static_cast<double>(device.free + Policy::held());
+    return {settings.backend + " on " + device.name, device.is_host      ? memory_of_host()
+                                                     : device.memory > 0 ? free
+                                                                         : 0};
   }
 }
 

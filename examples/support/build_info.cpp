@@ -41,6 +41,10 @@ std::string flags() {
 #if defined(__SANITIZE_ADDRESS__)
   add("address-sanitizer");
 #endif
+#if defined(_OPENACC)
+  add("OpenACC");
+  text.append(" ").append(std::to_string(_OPENACC));
+#endif
 #if defined(_OPENMP)
   add("OpenMP");
   text.append(" ").append(std::to_string(_OPENMP));

@@ -10,6 +10,7 @@
 
 #include <sphmbs/sphmbs.hpp>
 
+#include "support/backends.hpp"
 #include "support/session.hpp"
 #include "support/snapshot.hpp"
 
@@ -36,6 +37,12 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
   std::vector<BannerLine> banner(const Settings& settings) {
     const std::string fixed =
         settings.step ? "fixed at " + format_exact(*settings.step) + " s; " : "";
+    const Where at = where<Policy>(settings);
+    // Neighbours that come closer make lists longer, and new lists are made beside old fields.
+    const double most = at.memory / (1.25 * static_cast<double>(fluid_.bytes() / fluid_.size()));
+    const std::string place =
+        at.name + (at.memory > 0 ? ", room for about " + format_number(most, 2) + " particles"
+                                 : ", which does not tell how much memory it has");
     return {{"particles",
              format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
                  format_count(static_cast<std::int64_t>(fluid_.virtual_count())) + " virtual" +
@@ -45,9 +52,7 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
                       : ""),
              "memory " + format_bytes(fluid_.bytes()) + ", " +
                  std::to_string(fluid_.bytes() / fluid_.size()) + " B/particle"},
-            {"run", "until " + format_exact(settings.until) + " s",
-             settings.backend + ", " + std::to_string(settings.threads) +
-                 (settings.threads == 1 ? " thread" : " threads")},
+            {"run", "until " + format_exact(settings.until) + " s", place},
             {"step", fixed + limit_text(limit(settings), settings), ""}};
   }
 

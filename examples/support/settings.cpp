@@ -248,7 +248,8 @@ void CommandLine::Parts::add_common_options() {
                    std::to_string(defaults.threads),
                    [this](int value) { settings.threads = value; });
   add_one_of("--backend", settings.backend, program.backends, "execution policy",
-             "compiled into this program: " + joined(program.backends, ", "));
+             "compiled into this program: " + joined(program.backends, ", ") +
+                 "; SPHMBS_OFFLOAD adds openacc, omp_target or cuda (docs/gpu.md)");
   add_value("--output", "DIR", "results", "a directory", defaults.output.string(),
             [this](const std::string& text) -> Store {
               return [this, text] { settings.output = text; };
@@ -478,11 +479,13 @@ void require(bool condition, std::string_view option, std::string_view value,
   if (!condition) refuse(option, value, "must be " + std::string(allowed));
 }
 
+double memory_of_host() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
 void require_memory(double particles, double spacing) {
   constexpr double bytes_per_particle = 600;
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  const double most = memory / bytes_per_particle;
+  const double most = memory_of_host() / bytes_per_particle;
   require(particles < most, "--spacing", spacing,
           "wide enough for the memory of this computer, about " + format_number(most, 2) +
               " particles");

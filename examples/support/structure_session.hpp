@@ -13,6 +13,7 @@
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/joints/reaction.hpp>
 
+#include "support/backends.hpp"
 #include "support/session.hpp"
 
 namespace sphmbs::examples {
@@ -49,9 +50,7 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
   std::vector<BannerLine> banner(const Settings& settings) {
     std::vector<BannerLine> lines{parts()};
     for (const std::string& note : system_.start().notes) lines.push_back({"start", note, ""});
-    lines.push_back({"run", "until " + format_exact(settings.until) + " s",
-                     settings.backend + ", " + std::to_string(settings.threads) +
-                         (settings.threads == 1 ? " thread" : " threads")});
+    lines.push_back({"run", "until " + format_exact(settings.until) + " s", threads_of(settings)});
     const std::string step = settings.step
                                  ? "fixed at " + format_number(*settings.step, 6) + " s"
                                  : "for an accuracy of " + format_exact(*settings.accuracy) + " m";

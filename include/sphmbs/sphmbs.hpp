@@ -12,7 +12,6 @@
 #include <sphmbs/eos/ideal_gas.hpp>
 #include <sphmbs/eos/stiffened_gas.hpp>
 #include <sphmbs/execution/default.hpp>
-#include <sphmbs/execution/openmp.hpp>
 #include <sphmbs/execution/serial.hpp>
 #include <sphmbs/geometry/ball.hpp>
 #include <sphmbs/geometry/box.hpp>

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tuple>
-
 #include <omp.h>
 
-#include <sphmbs/execution/openmp.hpp>
-#include <sphmbs/execution/serial.hpp>
+#include <sphmbs/execution/compiled.hpp>
 
 namespace test {
 
-/// Every execution policy, for TEMPLATE_LIST_TEST_CASE.
-using Policies = std::tuple<sphmbs::execution::Serial, sphmbs::execution::OpenMP>;
+/// Every execution policy of this build, for TEMPLATE_LIST_TEST_CASE.
+using Policies = sphmbs::execution::Compiled;
 
 /// Sets the number of OpenMP threads for as long as it lives.
 class Threads {

@@ -10,8 +10,6 @@ namespace sphmbs {
 template <int Dim, class N = double>
 struct Vec {
   static_assert(Dim >= 1 && Dim <= 3, "space has one, two or three dimensions");
-  static constexpr int dim = Dim;
-  using Component = N;
   N component[Dim];
 
   SPHMBS_INLINE constexpr N& operator[](int k) { return component[k]; }

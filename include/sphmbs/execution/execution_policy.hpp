@@ -21,12 +21,14 @@ struct Nothing {
 
 /// What a policy offers.
 ///   name          as users type it
+///   Host          the policy for loops of the same program over data of the host
 ///   lanes<T>      numbers of type T a loop body computes with at once: the pack width on hosts, 1
 ///                 on devices
 ///   allocate      memory [bytes] where the loops run; throws std::bad_alloc
 ///   upload        host to policy memory; download the other way
 ///   for_each      body(i) for every i < n, in any order and in parallel
 ///   concurrency   how many loop bodies run at once
+///   chunk         items that one loop body of a reduction or a scan takes, one after the other
 template <class P>
 concept ExecutionPolicy = requires(std::size_t n, void* there, const void* here) {
   { P::name } -> std::convertible_to<std::string_view>;
@@ -37,6 +39,12 @@ concept ExecutionPolicy = requires(std::size_t n, void* there, const void* here)
   P::download(there, here, n);
   P::for_each(n, Nothing{});
   { P::concurrency() } -> std::convertible_to<int>;
+  { P::chunk } -> std::convertible_to<std::size_t>;
+  typename P::Host;
 };
+
+/// Whether a policy's loops and memory are those of the host.
+template <ExecutionPolicy P>
+inline constexpr bool on_host = std::is_same_v<P, typename P::Host>;
 
 }  // namespace sphmbs::execution

@@ -10,6 +10,7 @@ namespace sphmbs::execution {
 /// Memory of the policies that run on the host: aligned to cache lines, copies are plain copies.
 struct HostMemory {
   static constexpr std::align_val_t alignment{64};
+  static constexpr std::size_t chunk = 1024;
 
   static void* allocate(std::size_t bytes) { return ::operator new(bytes, alignment); }
   static void release(void* p) { ::operator delete(p, alignment); }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#if !defined(_OPENMP)
+#error "execution::OpenMP needs a compiler with OpenMP: compile with -fopenmp"
+#endif
+
 #include <cstddef>
 
 #include <omp.h>
@@ -16,6 +20,7 @@ namespace sphmbs::execution {
 /// not depend on it, to the last bit: no loop body reads what another one writes.
 struct OpenMP : HostMemory {
   static constexpr std::string_view name = "openmp";
+  using Host = OpenMP;
   template <class T>
   static constexpr int lanes = native_lanes<T>;
 

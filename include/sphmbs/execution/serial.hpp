@@ -11,6 +11,7 @@ namespace sphmbs::execution {
 /// One thread of the host.
 struct Serial : HostMemory {
   static constexpr std::string_view name = "serial";
+  using Host = Serial;
   template <class T>
   static constexpr int lanes = native_lanes<T>;
 

@@ -45,7 +45,7 @@ inline double filter_stretch(double h, double last) {
 ///   mbs::Dynamics system(mechanism);
 ///   run(system, mbs::GeneralizedAlpha{}, {.until = 1, .step = 1e-3}, report, observers...);
 template <class Structure, solvers::LinearSolver Solver = solvers::SparseLU,
-          class Policy = execution::OpenMP>
+          class Policy = execution::Default>
 class Dynamics {
  public:
   static constexpr int dim = Structure::dim;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <sphmbs/execution/first_error.hpp>
-#include <sphmbs/execution/openmp.hpp>
+#include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/serial.hpp>
 #include <sphmbs/mbs/layout.hpp>
 #include <sphmbs/mbs/mass.hpp>
@@ -19,7 +19,7 @@ namespace sphmbs::mbs {
 /// over the unknowns [q, lambda]. Components compute into slots, in parallel; each number of the
 /// result then gathers its own slots in a fixed order, so that results do not depend on the number
 /// of threads.
-template <class Structure, class Policy = execution::OpenMP>
+template <class Structure, class Policy = execution::Default>
 class Equations {
  public:
   static constexpr int dim = Structure::dim;
@@ -186,7 +186,7 @@ class Equations {
     if (n < many)
       execution::Serial::for_each(n, body);
     else
-      Policy::for_each(n, body);
+      Policy::Host::for_each(n, body);
   }
 
   Local gather(const Slot& slot, const State& state) {

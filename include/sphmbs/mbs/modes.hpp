@@ -25,7 +25,7 @@ struct Modes {
 /// @param state  with the multipliers of an equilibrium, such as that of equilibrium()
 /// @throws InvalidInput beyond 6000 coordinates, and for a state of another structure;
 ///         NumericalFailure where a motion has no mass.
-template <class Policy = execution::OpenMP, class Structure>
+template <class Policy = execution::Default, class Structure>
 Modes eigenmodes(Structure& structure, const State& state) {
   constexpr int most = 6000;
   const int n = structure.coordinates();
@@ -60,7 +60,7 @@ Modes eigenmodes(Structure& structure, const State& state) {
 }
 
 /// The same about the coordinates at t = 0 of a structure that is free of stress there.
-template <class Policy = execution::OpenMP, class Structure>
+template <class Policy = execution::Default, class Structure>
 Modes eigenmodes(Structure& structure) {
   const VectorXd still = VectorXd::Zero(structure.coordinates());
   State state{.t = 0, .q = structure.q(), .v = still, .vdot = still, .lambda = {}};

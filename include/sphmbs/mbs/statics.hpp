@@ -176,7 +176,7 @@ class EquilibriumSearch {
 ///
 /// @throws InvalidInput for bad options and inconsistent positions; NumericalFailure where the
 ///         structure can move freely, or the smallest load step fails
-template <solvers::LinearSolver Solver = solvers::SparseLU, class Policy = execution::OpenMP,
+template <solvers::LinearSolver Solver = solvers::SparseLU, class Policy = execution::Default,
           class Structure>
 Equilibrium equilibrium(Structure& structure, const StaticsOptions& options = {}) {
   options.check();

@@ -94,7 +94,7 @@ struct CountNeighbours {
   SPHMBS_INLINE void operator()(std::size_t a) const {
     std::uint32_t n = 0;
     find(a, [&n](std::uint32_t, unsigned bits) SPHMBS_INLINE_LAMBDA {
-      n += static_cast<std::uint32_t>(__builtin_popcount(bits));
+      n += W == 1 ? 1 : static_cast<std::uint32_t>(__builtin_popcount(bits));
     });
     count[a] = n;
   }
@@ -108,10 +108,15 @@ struct ListNeighbours {
   std::uint32_t* list;
 
   SPHMBS_INLINE void operator()(std::size_t a) const {
-    std::uint32_t* out = list + first[a];
-    const std::uint32_t* const end = list + first[a + 1];
-    find(a, [&out, end](std::uint32_t b, unsigned bits) SPHMBS_INLINE_LAMBDA {
-      if (end - out >= W) {
+    struct {
+      std::uint32_t* out;
+      const std::uint32_t* end;
+    } place{list + first[a], list + first[a + 1]};
+    find(a, [&place](std::uint32_t b, [[maybe_unused]] unsigned bits) SPHMBS_INLINE_LAMBDA {
+      auto& [out, end] = place;
+      if constexpr (W == 1) {
+        *out++ = b;
+      } else if (end - out >= W) {
         out += append_set_lanes<W>(bits, b, out);
       } else {
         for (; bits != 0; bits &= bits - 1)

@@ -25,13 +25,16 @@ struct NoSystem {
   void commit(double, double) {}
 };
 
+/// Likewise for the choice of a step.
+struct OneSecond {
+  double operator()() const { return 1.0; }
+};
+
 /// What an integrator offers: one step, whose length `choose_step()` gives once the rates at the
 /// beginning of the step are known; it is returned [s].
 template <class I, class S = NoSystem>
 concept TimeIntegrator = ExplicitSystem<S> && requires(const I integrator, S& system) {
-  {
-    integrator.step(system, [] { return 1.0; })
-    } -> std::same_as<double>;
+  { integrator.step(system, OneSecond{}) } -> std::same_as<double>;
 };
 
 }  // namespace sphmbs::time

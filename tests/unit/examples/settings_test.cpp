@@ -199,7 +199,9 @@ TEST_CASE("every bad option gives one line, exit code 2 and no result") {
       {{"--threads", "4097"}, "--threads 4097: " + threads},
       {{"--threads", "2.5"}, "--threads 2.5: " + threads},
       {{"--threads", "99999999999999999999"}, "--threads 99999999999999999999: " + threads},
-      {{"--backend", "cuda"}, "--backend cuda: must be compiled into this program: openmp, serial"},
+      {{"--backend", "cuda"},
+       "--backend cuda: must be compiled into this program: openmp, serial; SPHMBS_OFFLOAD adds "
+       "openacc, omp_target or cuda (docs/gpu.md)"},
       {{"--mach", "1"}, "--mach 1: must be a number, above 1 and below 20"},
       {{"--mach", "20"}, "--mach 20: must be a number, above 1 and below 20"},
       {{"--order", "0"}, "--order 0: must be a whole number, at least 1"},

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+# Device policies. Used by the build and by the installed package:
+#   sphmbs_offload(openacc|omp_target|cuda)
+# adds sphmbs::<policy>, the library with the compiler flags of execution::OpenACC, OpenMPTarget or
+# Cuda, where this compiler can build and link for it; else it says in one line why not. A program
+# links one of them instead of sphmbs::sphmbs, and all its files the same one.
+include(CheckCXXSourceCompiles)
+
+set(SPHMBS_OMP_DEVICE "nvptx64-nvidia-cuda" CACHE STRING
+  "Offload target of Clang; x86_64-pc-linux-gnu makes virtual devices of the host")
+set(SPHMBS_GPU_ARCH "sm_80" CACHE STRING "Architecture of the GPU that Clang and nvcc compile for")
+mark_as_advanced(SPHMBS_OMP_DEVICE SPHMBS_GPU_ARCH)
+
+# GCC hands device code to nvptx-tools and libm of the device. It knows GPUs up to sm_80; the driver
+# compiles its code for newer ones.
+set(sphmbs_nvptx -foffload=nvptx-none
+  -foffload-options=nvptx-none=-misa=sm_80 -foffload-options=nvptx-none=-lm
+  -foffload-options=nvptx-none=-latomic -foffload-options=nvptx-none=-fcf-protection=none -no-pie)
+
+function(sphmbs_offload policy)
+  if(TARGET sphmbs::${policy})
+    return()
+  endif()
+  set(loop "#pragma acc parallel loop gang vector reduction(+:s)")
+  set(link "")
+  set(definitions "")
+  if(policy STREQUAL "cuda")
+    _sphmbs_cuda()
+    return()
+  elseif(policy STREQUAL "openacc")
+    set(flags -fopenacc ${sphmbs_nvptx})
+    set(needs "GCC with its offload compiler (Debian: gcc-12-offload-nvptx)")
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      message(STATUS "sphmbs: no policy openacc: it needs ${needs}")
+      return()
+    endif()
+  elseif(policy STREQUAL "omp_target")
+    set(loop "#pragma omp target teams distribute parallel for simd reduction(+:s) map(tofrom:s)")
+    set(definitions SPHMBS_OMP_TARGET)
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+      execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir
+        OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
+      get_filename_component(runtime "${resources}/../.." ABSOLUTE)
+      set(flags -fopenmp -fopenmp-targets=${SPHMBS_OMP_DEVICE} -Wno-pass-failed)
+      if(SPHMBS_OMP_DEVICE MATCHES "nvptx")
+        list(APPEND flags --offload-arch=${SPHMBS_GPU_ARCH} --libomptarget-nvptx-bc-path=${runtime})
+      endif()
+      set(link -Wl,-rpath,${runtime})
+      set(needs "libomp and clang-tools of the compiler's version, and CUDA's ptxas for nvptx")
+    else()
+      set(flags -fopenmp ${sphmbs_nvptx})
+      set(needs "GCC's offload compiler (Debian: gcc-12-offload-nvptx)")
+    endif()
+  else()
+    message(FATAL_ERROR "sphmbs_offload(${policy}): must be openacc, omp_target or cuda")
+  endif()
+
+  # Linked too: GCC makes device code when it links.
+  list(JOIN flags " " CMAKE_REQUIRED_FLAGS)
+  set(CMAKE_REQUIRED_LINK_OPTIONS ${link})
+  set(CMAKE_REQUIRED_QUIET ON)
+  string(MAKE_C_IDENTIFIER "SPHMBS_CAN_${policy}_${SPHMBS_OMP_DEVICE}" can)
+  check_cxx_source_compiles("#include <cmath>
+int main() {
+  double s = 0;
+${loop}
+  for (int i = 0; i < 9; ++i) s += ::sqrt(1.0 * i);
+  return s < 0;
+}" ${can})
+  if(NOT ${can})
+    message(STATUS "sphmbs: no policy ${policy}: it needs ${needs}")
+    return()
+  endif()
+  add_library(sphmbs_${policy} INTERFACE IMPORTED GLOBAL)
+  add_library(sphmbs::${policy} ALIAS sphmbs_${policy})
+  target_link_libraries(sphmbs_${policy} INTERFACE sphmbs::headers)
+  # Device code of unoptimised programs overflows the device's stack.
+  target_compile_options(sphmbs_${policy} INTERFACE ${flags} -O3 -fno-math-errno)
+  target_link_options(sphmbs_${policy} INTERFACE ${flags} -O3 ${link})
+  target_compile_definitions(sphmbs_${policy} INTERFACE ${definitions})
+endfunction()
+
+# Sources of programs that link sphmbs::cuda have the language CUDA.
+function(_sphmbs_cuda)
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(NOT CMAKE_CUDA_COMPILER)
+    message(STATUS "sphmbs: no policy cuda: it needs nvcc of CUDA 12 or later")
+    return()
+  endif()
+  string(REGEX REPLACE "[^0-9]" "" architecture "${SPHMBS_GPU_ARCH}")
+  if(NOT CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES ${architecture} CACHE STRING "GPU architectures of nvcc")
+  endif()
+  enable_language(CUDA)
+  add_library(sphmbs_cuda INTERFACE IMPORTED GLOBAL)
+  add_library(sphmbs::cuda ALIAS sphmbs_cuda)
+  target_link_libraries(sphmbs_cuda INTERFACE sphmbs::headers)
+  target_compile_features(sphmbs_cuda INTERFACE cuda_std_20)
+  # 1675: pragmas of GCC.
+  target_compile_options(sphmbs_cuda INTERFACE $<$<COMPILE_LANGUAGE:CUDA>:-O3
+    --expt-relaxed-constexpr -diag-suppress=1675 -Xcompiler=-fno-math-errno>)
+endfunction()
