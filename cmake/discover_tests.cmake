@@ -29,7 +29,7 @@ function(append_cases spec speed)
     string(APPEND script
       "add_test([==[${NAME}: ${case}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
       "set_tests_properties([==[${NAME}: ${case}]==] PROPERTIES LABELS \"${KIND};${speed}\" "
-      "TIMEOUT ${timeout_${speed}})\n")
+      "TIMEOUT ${timeout_${speed}} ENVIRONMENT \"${ENVIRONMENT}\")\n")
   endforeach()
   set(script "${script}" PARENT_SCOPE)
 endfunction()

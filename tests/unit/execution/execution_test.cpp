@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/execution/scan.hpp>
 
@@ -19,30 +19,30 @@
 
 namespace {
 
-using sphmbs::execution::Field;
-using sphmbs::execution::OpenMP;
-using sphmbs::execution::Serial;
+namespace execution = sphmbs::execution;
+using execution::Field;
+using execution::Serial;
 
 struct Visit {
   std::uint32_t* visits;
-  void operator()(std::size_t i) const { ++visits[i]; }
+  SPHMBS_INLINE void operator()(std::size_t i) const { ++visits[i]; }
 };
 
 struct DoubleSum {
   double value = 0;
-  void combine(const DoubleSum& other) { value += other.value; }
+  SPHMBS_INLINE void combine(const DoubleSum& other) { value += other.value; }
 };
 
 struct Term {
   const double* terms;
-  DoubleSum operator()(std::size_t i) const { return {terms[i]}; }
+  SPHMBS_INLINE DoubleSum operator()(std::size_t i) const { return {terms[i]}; }
 };
 
 /// Joins numbers in their order, so that any other order shows.
 struct Chain {
   std::uint64_t hash = 1469598103934665603u;
   std::uint64_t length = 0;
-  void combine(const Chain& other) {
+  SPHMBS_INLINE void combine(const Chain& other) {
     if (other.length == 0) return;
     hash = (hash ^ other.hash) * 1099511628211u;
     length += other.length;
@@ -50,7 +50,7 @@ struct Chain {
 };
 
 struct Link {
-  Chain operator()(std::size_t i) const { return {i + 1, 1}; }
+  SPHMBS_INLINE Chain operator()(std::size_t i) const { return {i + 1, 1}; }
 };
 
 /// Numbers whose sum depends on the order of summation in many bits.
@@ -77,11 +77,12 @@ TEMPLATE_LIST_TEST_CASE("a loop visits every index once", "[execution]", test::P
   for (const int count : {1, 2, 3, 4}) {
     const test::Threads threads(count);
     for (const std::size_t n : sizes) {
-      std::vector<std::uint32_t> visits(n + 1);
+      const std::vector<std::uint32_t> none(n + 1);
+      Field<std::uint32_t, TestType> visits{std::span<const std::uint32_t>(none)};
       TestType::for_each(n, Visit{visits.data()});
       std::vector<std::uint32_t> expected(n, 1);
       expected.push_back(0);
-      REQUIRE(visits == expected);
+      REQUIRE(visits.download() == expected);
     }
   }
   TestType::for_each(0, Visit{nullptr});
@@ -89,20 +90,47 @@ TEMPLATE_LIST_TEST_CASE("a loop visits every index once", "[execution]", test::P
 
 TEMPLATE_LIST_TEST_CASE("a policy tells its name and how much runs at once", "[execution]",
                         test::Policies) {
-  CHECK(TestType::name == (std::is_same_v<TestType, Serial> ? "serial" : "openmp"));
   const test::Threads three(3);
-  CHECK(TestType::concurrency() == (std::is_same_v<TestType, Serial> ? 1 : 3));
-  CHECK(TestType::template lanes<double> == sphmbs::native_lanes<double>);
+  if constexpr (std::is_same_v<TestType, Serial>) {
+    CHECK(TestType::name == "serial");
+    CHECK(TestType::concurrency() == 1);
+  }
+#if defined(_OPENMP)
+  if constexpr (std::is_same_v<TestType, execution::OpenMP>) {
+    CHECK(TestType::name == "openmp");
+    CHECK(TestType::concurrency() == 3);
+  }
+#endif
+  const int lanes = TestType::template lanes<double>;
+  CHECK(lanes == (execution::on_host<TestType> ? sphmbs::native_lanes<double> : 1));
 }
 
-TEST_CASE("a reduction has the same bits for any policy and number of threads", "[execution]") {
+TEST_CASE("the policies of a build are found by their names", "[execution]") {
+  std::size_t count = 0;
+  execution::for_compiled([&](auto policy) {
+    ++count;
+    int runs = 0;
+    CHECK(execution::with_policy(policy.name, [&](auto chosen) {
+      ++runs;
+      CHECK(chosen.name == policy.name);
+    }));
+    CHECK(runs == 1);
+  });
+  CHECK(count == std::tuple_size_v<execution::Compiled>);
+  CHECK_FALSE(execution::with_policy("fpga", [](auto) {}));
+}
+
+TEMPLATE_LIST_TEST_CASE("a reduction has the same bits again and for any number of threads",
+                        "[execution]", test::Policies) {
   for (const std::size_t n : sizes) {
     const auto terms = varied_terms(n);
-    const double expected = sum_of<Serial>(terms);
+    const double expected = sum_of<TestType>(terms);
+    // All policies of the host fold in the same order.
+    if (execution::on_host<TestType>) CHECK(test::same_bits(expected, sum_of<Serial>(terms)));
     for (const int count : {1, 2, 3, 4}) {
       const test::Threads threads(count);
       CAPTURE(n, count);
-      CHECK(test::same_bits(sum_of<OpenMP>(terms), expected));
+      CHECK(test::same_bits(sum_of<TestType>(terms), expected));
     }
   }
   // The terms do tell orders apart: from the last to the first the sum is another one.
@@ -117,14 +145,18 @@ TEMPLATE_LIST_TEST_CASE("a reduction folds every index once and in order", "[exe
   for (const std::size_t n : sizes) {
     const Chain found = sphmbs::execution::reduce<TestType>(n, Chain{}, Link{});
     CHECK(found.length == n);
-    Chain expected;
-    for (std::size_t begin = 0; begin < n; begin += sphmbs::execution::reduction_block) {
-      Chain block;
-      for (std::size_t i = begin; i < std::min(begin + sphmbs::execution::reduction_block, n); ++i)
-        block.combine(Link{}(i));
-      expected.combine(block);
-    }
-    CHECK(found.hash == expected.hash);
+    // A device folds the partial results too, until one is left.
+    std::vector<Chain> expected(n);
+    for (std::size_t k = 0; k < n; ++k) expected[k] = Link{}(k);
+    do {
+      std::vector<Chain> chunks((expected.size() + TestType::chunk - 1) / TestType::chunk);
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        chunks[k / TestType::chunk].combine(expected[k]);
+      expected = chunks;
+    } while (!execution::on_host<TestType> && expected.size() > 1);
+    Chain whole;
+    for (const Chain& chunk : expected) whole.combine(chunk);
+    CHECK(found.hash == whole.hash);
   }
 }
 
@@ -212,8 +244,7 @@ TEMPLATE_LIST_TEST_CASE("a field may be empty or change its size", "[execution]"
   CHECK(a.data() == nullptr);
 }
 
-TEMPLATE_LIST_TEST_CASE("memory of a host policy is aligned to cache lines", "[execution]",
-                        test::Policies) {
+TEMPLATE_LIST_TEST_CASE("memory is aligned to cache lines", "[execution]", test::Policies) {
   for (const std::size_t n : {1u, 3u, 100u}) {
     const Field<char, TestType> field(n);
     CHECK(reinterpret_cast<std::uintptr_t>(field.data()) % 64 == 0);

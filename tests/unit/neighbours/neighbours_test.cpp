@@ -271,7 +271,7 @@ TEST_CASE("lists are in the same order for any number of threads", "[neighbours]
         lists_of<CellList, sphmbs::execution::Serial, double>(cloud, domain, reach);
     for (const int count : {1, 2, 3, 4}) {
       const test::Threads threads(count);
-      CHECK(lists_of<CellList, sphmbs::execution::OpenMP, double>(cloud, domain, reach) ==
+      CHECK(lists_of<CellList, sphmbs::execution::Default, double>(cloud, domain, reach) ==
             expected);
     }
   };

@@ -93,7 +93,7 @@ TEST_CASE("a failure reads the same for any number of threads", "[sph]") {
   for (const std::size_t sick : {700u, 1500u, 3100u}) cloud.p[sick] = not_a_number;
   const auto tell = [&] {
     return test::complaint<NumericalFailure>([&] {
-      sphmbs::sph::Fluid<test::Gas<2>, sphmbs::execution::OpenMP> fluid({}, test::cube<2>(6, true),
+      sphmbs::sph::Fluid<test::Gas<2>, sphmbs::execution::Default> fluid({}, test::cube<2>(6, true),
                                                                         cloud);
       sphmbs::time::PredictorCorrector{}.step(fluid, [] { return 1e-6; });
     });
