@@ -27,11 +27,18 @@ SPHMBS_INLINE constexpr std::uint8_t opening_set(int opening) {
   return static_cast<std::uint8_t>(first_opening + opening);
 }
 
+/// Whether positions are kept in two numbers, what T holds of them and the rest: a float alone
+/// would round them to some 1e-4 of a spacing in a domain of a thousand spacings, and forces with
+/// them.
+template <class T>
+inline constexpr bool splits_positions = sizeof(T) < sizeof(double);
+
 /// The state at the beginning of the step, as pointers that loop bodies see. Planar gas is per
 /// metre of depth: m in kg/m; on a line per square metre of section: kg/m^2.
 template <int Dim, class T>
 struct FieldsView {
   T* r[Dim];       // position [m]
+  T* rest[Dim];    // what rounding to T left of the position [m]; null where T is double
   T* v[Dim];       // velocity [m/s]
   T* rho;          // density [kg/m^3]
   T* e;            // specific internal energy [J/kg]
@@ -48,7 +55,18 @@ struct FieldsView {
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }
   SPHMBS_INLINE Vec<Dim, T> normal_at(std::size_t i) const { return at(normal, i); }
-  SPHMBS_INLINE void set_position(std::size_t i, const Vec<Dim, T>& x) const { put(r, i, x); }
+  /// The position in full.
+  SPHMBS_INLINE Vec<Dim> place(std::size_t i) const {
+    Vec<Dim> x = position(i).template to<double>();
+    if constexpr (splits_positions<T>) x += at(rest, i).template to<double>();
+    return x;
+  }
+  SPHMBS_INLINE void set_place(std::size_t i, const Vec<Dim>& x) const {
+    const Vec<Dim, T> rounded = x.template to<T>();
+    put(r, i, rounded);
+    if constexpr (splits_positions<T>)
+      put(rest, i, (x - rounded.template to<double>()).template to<T>());
+  }
   SPHMBS_INLINE void set_velocity(std::size_t i, const Vec<Dim, T>& x) const { put(v, i, x); }
 
   static SPHMBS_INLINE Vec<Dim, T> at(T* const (&field)[Dim], std::size_t i) {

@@ -65,6 +65,12 @@ class Particles {
     };
     for (int k = 0; k < Dim; ++k) {
       put(r_[k], [&](std::size_t i) { return cloud.r[i][k]; });
+      if constexpr (splits_positions<T>) {
+        rest_[k] = Field<T>(padded());
+        put(rest_[k], [&](std::size_t i) {
+          return cloud.r[i][k] - static_cast<double>(static_cast<T>(cloud.r[i][k]));
+        });
+      }
       put(v_[k], [&](std::size_t i) { return cloud.v[i][k]; });
     }
     put(rho_, [&](std::size_t i) { return cloud.rho[i]; });
@@ -96,7 +102,7 @@ class Particles {
     set_ = Field<std::uint8_t>(cloud.set);
     pairs_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
     falls_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
-    records_ = Field<T>(n * record_size<Dim>);
+    records_ = Field<T>(n * record_size<Dim, T>);
   }
 
   std::size_t size() const { return size_; }
@@ -106,6 +112,7 @@ class Particles {
 
   FieldsView<Dim, T> fields() {
     FieldsView<Dim, T> f{.r = {},
+                         .rest = {},
                          .v = {},
                          .rho = rho_.data(),
                          .e = e_.data(),
@@ -119,6 +126,7 @@ class Particles {
                          .set = set_.data()};
     for (int k = 0; k < Dim; ++k) {
       f.r[k] = r_[k].data();
+      f.rest[k] = rest_[k].data();
       f.v[k] = v_[k].data();
       f.normal[k] = normal_[k].data();
     }
@@ -175,9 +183,9 @@ class Particles {
     gather_anew(sheet_, order, n);
     gather_anew(pairs_, order, n);
     gather_anew(falls_, order, n);
-    Field<T> records(n * record_size<Dim>);
+    Field<T> records(n * record_size<Dim, T>);
     Policy::for_each(
-        n, detail::GatherRows<T, record_size<Dim>>{records_.data(), records.data(), order});
+        n, detail::GatherRows<T, record_size<Dim, T>>{records_.data(), records.data(), order});
     records_ = std::move(records);
   }
 
@@ -204,7 +212,7 @@ class Particles {
   std::vector<Field<T>*> optional() {
     std::vector<Field<T>*> all{&depth_, &patch_, &heating_};
     for (int k = 0; k < Dim; ++k)
-      for (Field<T>* f : {&normal_[k], &push_[k]}) all.push_back(f);
+      for (Field<T>* f : {&normal_[k], &push_[k], &rest_[k]}) all.push_back(f);
     return all;
   }
 
@@ -219,7 +227,7 @@ class Particles {
 
   std::size_t size_;
   bool has_openings_;
-  Field<T> r_[Dim], v_[Dim], rho_, e_, h_, m_;
+  Field<T> r_[Dim], rest_[Dim], v_[Dim], rho_, e_, h_, m_;
   Field<T> r_rate_[Dim], v_rate_[Dim], rho_rate_, e_rate_, h_rate_;
   Field<std::uint32_t> id_;
   Field<std::uint8_t> set_, sheet_;

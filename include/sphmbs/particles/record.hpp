@@ -3,11 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <sphmbs/core/transpose.hpp>
 #include <sphmbs/core/vec.hpp>
+#include <sphmbs/particles/fields.hpp>
 
 namespace sphmbs::particles {
+
+/// Stands in for the rest of positions that need none.
+struct NoRest {};
 
 /// What a pair sees of a particle at a stage of the time step, in number type N.
 template <int Dim, class N>
@@ -20,12 +25,29 @@ struct Record {
   N h;            // smoothing length [m]
   N m;            // mass [kg]
   N shell;        // 1 for virtual particles, 0 for gas
+  /// What rounding left of the position [m].
+  std::conditional_t<splits_positions<Scalar<N>>, Vec<Dim, N>, NoRest> rest = {};
 };
+
+/// From particle a to particle b [m].
+template <int Dim, class T, class N>
+SPHMBS_INLINE Vec<Dim, N> way(const Record<Dim, T>& a, const Record<Dim, N>& b) {
+  Vec<Dim, N> d = b.r - a.r;
+  if constexpr (splits_positions<T>) d += b.rest - a.rest;
+  return d;
+}
+
+/// So many numbers or a few more, to fill 16 bytes: devices then read two or four at once.
+template <class T>
+constexpr int whole_words(int numbers) {
+  constexpr int word = 16 / static_cast<int>(sizeof(T));
+  return (numbers + word - 1) / word * word;
+}
 
 /// Numbers a record takes in memory: records lie one after the other, so that a pair touches one or
 /// two cache lines of its neighbour instead of one a field.
-template <int Dim>
-inline constexpr int record_size = 2 * Dim + 6;
+template <int Dim, class T>
+inline constexpr int record_size = whole_words<T>(2 * Dim + 6 + (splits_positions<T> ? Dim : 0));
 
 namespace detail {
 
@@ -43,6 +65,10 @@ SPHMBS_INLINE Record<Dim, N> unpack(const N* f) {
   s.h = f[2 * Dim + 3];
   s.m = f[2 * Dim + 4];
   s.shell = f[2 * Dim + 5];
+  if constexpr (splits_positions<Scalar<N>>) {
+#pragma GCC unroll 3
+    for (int k = 0; k < Dim; ++k) s.rest[k] = f[2 * Dim + 6 + k];
+  }
   return s;
 }
 
@@ -51,7 +77,8 @@ SPHMBS_INLINE Record<Dim, N> unpack(const N* f) {
 /// Record i.
 template <int Dim, class T>
 SPHMBS_INLINE Record<Dim, T> load_record(const T* records, std::size_t i) {
-  return detail::unpack<Dim>(records + i * record_size<Dim>);
+  const T* const f = records + i * record_size<Dim, T>;
+  return detail::unpack<Dim>(static_cast<const T*>(__builtin_assume_aligned(f, 16)));
 }
 
 /// The records with W given indices, lane by lane.
@@ -60,7 +87,7 @@ SPHMBS_INLINE Record<Dim, Number<T, W>> load_records(const T* records, const std
   if constexpr (W == 1) {
     return load_record<Dim>(records, index[0]);
   } else {
-    Pack<T, W> fields[record_size<Dim>];
+    Pack<T, W> fields[record_size<Dim, T>];
     load_transposed(records, index, fields);
     return detail::unpack<Dim>(fields);
   }
@@ -68,7 +95,7 @@ SPHMBS_INLINE Record<Dim, Number<T, W>> load_records(const T* records, const std
 
 template <int Dim, class T>
 SPHMBS_INLINE void store_record(T* records, std::size_t i, const Record<Dim, T>& s) {
-  T* f = records + i * record_size<Dim>;
+  T* f = records + i * record_size<Dim, T>;
   for (int k = 0; k < Dim; ++k) {
     f[k] = s.r[k];
     f[Dim + k] = s.v[k];
@@ -79,6 +106,8 @@ SPHMBS_INLINE void store_record(T* records, std::size_t i, const Record<Dim, T>&
   f[2 * Dim + 3] = s.h;
   f[2 * Dim + 4] = s.m;
   f[2 * Dim + 5] = s.shell;
+  if constexpr (splits_positions<T>)
+    for (int k = 0; k < Dim; ++k) f[2 * Dim + 6 + k] = s.rest[k];
 }
 
 }  // namespace sphmbs::particles

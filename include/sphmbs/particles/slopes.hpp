@@ -6,6 +6,7 @@
 
 #include <sphmbs/core/transpose.hpp>
 #include <sphmbs/core/vec.hpp>
+#include <sphmbs/particles/record.hpp>
 
 namespace sphmbs::particles {
 
@@ -26,8 +27,8 @@ struct Surface {
 
 /// Numbers that either of the two takes in memory. A gas particle has slopes, a virtual particle a
 /// surface.
-template <int Dim>
-inline constexpr int slopes_size = Dim*(Dim + 2) < 4 ? 4 : Dim*(Dim + 2);
+template <int Dim, class T>
+inline constexpr int slopes_size = whole_words<T>(Dim*(Dim + 2) < 4 ? 4 : Dim * (Dim + 2));
 
 namespace detail {
 
@@ -65,7 +66,8 @@ struct Vicinity {
 /// Of particle i.
 template <int Dim, class T>
 SPHMBS_INLINE Vicinity<Dim, T> load_vicinity(const T* stored, std::size_t i) {
-  const T* f = stored + i * slopes_size<Dim>;
+  const T* f =
+      static_cast<const T*>(__builtin_assume_aligned(stored + i * slopes_size<Dim, T>, 16));
   return {detail::unpack_slopes<Dim>(f), detail::unpack_surface<Dim>(f)};
 }
 
@@ -76,7 +78,7 @@ SPHMBS_INLINE Vicinity<Dim, Number<T, W>> load_vicinities(const T* stored,
   if constexpr (W == 1) {
     return load_vicinity<Dim>(stored, index[0]);
   } else {
-    Pack<T, W> f[slopes_size<Dim>];
+    Pack<T, W> f[slopes_size<Dim, T>];
     load_transposed(stored, index, f);
     return {detail::unpack_slopes<Dim>(f), detail::unpack_surface<Dim>(f)};
   }
@@ -84,7 +86,7 @@ SPHMBS_INLINE Vicinity<Dim, Number<T, W>> load_vicinities(const T* stored,
 
 template <int Dim, class T>
 SPHMBS_INLINE void store_slopes(T* stored, std::size_t i, const Slopes<Dim, T>& s) {
-  T* f = stored + i * slopes_size<Dim>;
+  T* f = stored + i * slopes_size<Dim, T>;
   for (int k = 0; k < Dim; ++k) {
     f[k] = s.rho[k];
     f[Dim + k] = s.p[k];
@@ -94,7 +96,7 @@ SPHMBS_INLINE void store_slopes(T* stored, std::size_t i, const Slopes<Dim, T>& 
 
 template <int Dim, class T>
 SPHMBS_INLINE void store_surface(T* stored, std::size_t i, const Surface<Dim, T>& s) {
-  T* f = stored + i * slopes_size<Dim>;
+  T* f = stored + i * slopes_size<Dim, T>;
   for (int k = 0; k < Dim; ++k) f[k] = s.normal[k];
   f[Dim] = s.depth;
 }

@@ -36,7 +36,7 @@ struct OpeningTerm {
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&,
                                 AroundOpening<dim, N>& sum) const {
-    Vec<dim, N> d = b.r - a.r;
+    Vec<dim, N> d = particles::way(a, b);
     if constexpr (wraps) d = space.nearest(d);
     const N R = math::sqrt(norm2(d)) / (N(T(0.5)) * (N(a.h) + b.h));
     // The particle itself, which fills up packs, is no neighbour.

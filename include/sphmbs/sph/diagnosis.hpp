@@ -38,7 +38,7 @@ std::string describe_culprit(particles::Particles<Dim, T, Policy>& particles, co
   const auto fields = particles.fields();
   const auto ids = read(fields.id, particles.size());
   const auto i = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
-  constexpr auto size = static_cast<std::size_t>(particles::record_size<Dim>);
+  constexpr auto size = static_cast<std::size_t>(particles::record_size<Dim, T>);
   const std::vector<T> numbers = read(particles.records() + i * size, size);
   const auto s = particles::load_record<Dim>(numbers.data(), 0);
   const int set = read(fields.set + i, 1)[0];

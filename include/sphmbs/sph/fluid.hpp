@@ -46,12 +46,14 @@ class Fluid {
         domain_(domain),
         motion_(motion),
         space_(domain.template periodicity<T>()),
+        places_(domain.template periodicity<double>()),
         particles_((domain.wrap(cloud.r), cloud),
                    [&](double rho, double p) { return scheme.eos.internal_energy(rho, p); }),
         openings_(scheme, domain, cloud),
         gas_count_(cloud.gas_count()),
         gas_mass_(cloud.gas_mass()) {
-    static_assert(boundary::Motion<Motion, Vec<dim, T>> && time::ExplicitSystem<Fluid>);
+    static_assert(boundary::Motion<Motion, Vec<dim>> && boundary::Motion<Motion, Vec<dim, T>> &&
+                  time::ExplicitSystem<Fluid>);
     static_assert(neighbours::NeighbourSearch<Search, dim, T, Policy>);
     scheme.check();
     domain.check();
@@ -69,7 +71,7 @@ class Fluid {
   void stage(double scale, double dt, double slack = 0) {
     slopes_known_ = false;
     write_records(scale, dt);
-    lists_.staged(dt, motion_surplus<Policy>(advance(0, dt), space_, size()) + 2 * slack);
+    lists_.staged(dt, motion_surplus<Policy>(advance(0, dt), places_, size()) + 2 * slack);
     if (!lists_.outdated(dt)) return;
     rebuild_lists(dt);
     write_records(scale, dt);
@@ -80,9 +82,9 @@ class Fluid {
   /// @throws NumericalFailure where that is further than the stage's slack.
   void follow(double dt) {
     const auto to = advance(0, dt);
-    if (motion_surplus<Policy>(to, space_, size()) > lists_.surplus())
+    if (motion_surplus<Policy>(to, places_, size()) > lists_.surplus())
       fail("bodies go too far within the iterations of a step", step_limit(survey_, 1).id, dt);
-    Policy::for_each(size(), FollowMotion<Scheme, T, Motion>{to, space_, particles_.records(),
+    Policy::for_each(size(), FollowMotion<Scheme, T, Motion>{to, places_, particles_.records(),
                                                              vicinities_.data()});
     if constexpr (Scheme::Wall::evolves) slopes_known_ = false;  // they see where walls are
     evaluate_slopes();
@@ -114,10 +116,10 @@ class Fluid {
 
   /// y = y + scale k, and the time goes on by dt.
   void commit(double scale, double dt) {
-    const double surplus = motion_surplus<Policy>(advance(0, dt), space_, size());
+    const double surplus = motion_surplus<Policy>(advance(0, dt), places_, size());
     {
       const auto timer = statistics_.time(Phase::update);
-      Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), space_});
+      Policy::for_each(size(), CommitStep<Scheme, T, Motion>{advance(scale, dt), places_});
     }
     time_ += dt;
     last_dt_ = dt;
@@ -213,7 +215,7 @@ class Fluid {
     const auto timer = statistics_.time(Phase::update);
     using Write = WriteRecords<Scheme, T, Motion>;
     const std::uint32_t culprit =
-        write_all<Policy>(Write{advance(scale, dt), scheme_, space_, particles_.records(),
+        write_all<Policy>(Write{advance(scale, dt), scheme_, places_, particles_.records(),
                                 vicinities_.data(), culprit_.data()},
                           culprit_, size());
     if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
@@ -240,6 +242,7 @@ class Fluid {
   geometry::Domain<dim> domain_;
   Motion motion_;
   geometry::Periodicity<dim, T> space_;
+  geometry::Periodicity<dim, double> places_;  // the same, for positions in full
   particles::Particles<dim, T, Policy> particles_;
   Openings<Scheme, T, Policy> openings_;
   std::size_t gas_count_;

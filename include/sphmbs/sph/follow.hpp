@@ -11,7 +11,7 @@ template <class Scheme, class T, class Motion>
 struct FollowMotion {
   static constexpr int dim = Scheme::dim;
   Advance<Scheme, T, Motion> advance;
-  geometry::Periodicity<dim, T> space;
+  geometry::Periodicity<dim, double> space;
   T* records;
   T* vicinities;
 
@@ -19,7 +19,10 @@ struct FollowMotion {
     if (!rides(advance, i)) return;
     const Stepped<dim, T> y = advance(i);
     auto record = particles::load_record<dim>(records, i);
-    record.r = space.wrap(y.r);
+    const Vec<dim> r = space.wrap(y.r);
+    record.r = r.template to<T>();
+    if constexpr (particles::splits_positions<T>)
+      record.rest = (r - record.r.template to<double>()).template to<T>();
     record.v = y.v;
     particles::store_record<dim, T>(records, i, record);
     if constexpr (Scheme::Wall::surfaces)

@@ -41,7 +41,7 @@ struct PairTerm {
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>& around_b,
                                 PairSums<dim, N>& sum) const {
-    Vec<dim, N> d = b.r - a.r;
+    Vec<dim, N> d = particles::way(a, b);
     if constexpr (wraps) d = space.nearest(d);
     const N h = N(T(0.5)) * (N(a.h) + b.h);  // eq. (24)
     // Two particles at one point have no line between them: a floor keeps them finite and apart.

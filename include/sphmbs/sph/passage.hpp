@@ -188,11 +188,11 @@ struct Become {
     if (pass.fate[i] == Fate::leaves) fields.set[j] = particles::opening_set(pass.zone_of(j));
     if (!particles::is_opening(fields.set[j])) return;
     const auto& o = pass.openings[particles::opening_of(fields.set[j])];
-    Vec<Dim, T> r = fields.position(j);
+    Vec<Dim> r = fields.place(j);
     const bool follows = pass.fate[i] == Fate::is_followed && j != first[i];
     bool renewed = follows;
     for (int k = 0; k < Dim; ++k) {
-      const T beside = o.beside(r, k);
+      const T beside = o.beside(r.template to<T>(), k);
       renewed = renewed || beside != T(0);
       if (beside != T(0)) r[k] += (beside < T(0) ? T(1) : T(-1)) * (o.upper[k] - o.lower[k]);
     }
@@ -203,7 +203,7 @@ struct Become {
       r[o.axis] -= o.side * o.spacing * ratio;
       fields.id[j] = next_id + rank[i];
     }
-    fields.set_position(j, r);
+    fields.set_place(j, r);
     fields.set_velocity(j, state.v);
     fields.rho[j] = state.rho;
     fields.e[j] = state.e;

@@ -41,7 +41,7 @@ struct SlopeTerm {
   template <class N>
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&, SlopeSums<dim, N>& sum) const {
-    Vec<dim, N> d = b.r - a.r;
+    Vec<dim, N> d = particles::way(a, b);
     if constexpr (wraps) d = space.nearest(d);
     const N h = N(T(0.5)) * (N(a.h) + b.h);
     const N r2 = norm2(d);

@@ -19,7 +19,7 @@ namespace sphmbs::sph {
 /// State of a particle: what eqs. (27)-(29) step.
 template <int Dim, class T>
 struct Stepped {
-  Vec<Dim, T> r;
+  Vec<Dim> r;  // in full
   Vec<Dim, T> v;
   T rho;
   T e;
@@ -40,8 +40,7 @@ struct Advance {
   double dt;    // [s]
 
   SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
-    Stepped<Dim, T> y{fields.position(i), fields.velocity(i), fields.rho[i], fields.e[i],
-                      fields.h[i]};
+    Stepped<Dim, T> y{fields.place(i), fields.velocity(i), fields.rho[i], fields.e[i], fields.h[i]};
     const bool moves = !particles::is_virtual(fields.set[i]);
     if (scale != T(0)) {
       y.rho += scale * rates.rho[i];
@@ -49,14 +48,14 @@ struct Advance {
       y.h += scale * rates.h[i];
       if (moves) {
         for (int k = 0; k < Dim; ++k) {
-          y.r[k] += scale * rates.r[k][i];
+          y.r[k] += static_cast<double>(scale) * static_cast<double>(rates.r[k][i]);
           y.v[k] += scale * rates.v[k][i];
         }
       }
     }
     if (!moves) {
       y.r = motion.position(mark(i), y.r, time, time + dt);
-      Vec<Dim, T> seen = y.r;  // the point whose velocity gas meets
+      Vec<Dim, T> seen = y.r.template to<T>();  // the point whose velocity gas meets
       if constexpr (Scheme::Wall::surfaces) {
         const particles::Surface<Dim, T> s = surface(i);
         seen += s.depth * s.normal;
@@ -93,7 +92,7 @@ struct WriteRecords {
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   Advance<Scheme, T, Motion> advance;
   Scheme scheme;
-  geometry::Periodicity<dim, T> space;
+  geometry::Periodicity<dim, double> space;
   T* records;
   T* vicinities;
   std::uint32_t* culprit;
@@ -102,16 +101,19 @@ struct WriteRecords {
     const Stepped<dim, T> y = advance(i);
     const T p = scheme.eos.pressure(y.rho, y.e);
     const T c = scheme.eos.sound_speed(y.rho, p);
-    particles::store_record<dim, T>(
-        records, i,
-        {.r = space.wrap(y.r),
-         .v = y.v,
-         .rho = y.rho,
-         .p = p,
-         .c = c,
-         .h = y.h,
-         .m = advance.fields.m[i],
-         .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0)});
+    const Vec<dim> r = space.wrap(y.r);
+    particles::Record<dim, T> record{
+        .r = r.template to<T>(),
+        .v = y.v,
+        .rho = y.rho,
+        .p = p,
+        .c = c,
+        .h = y.h,
+        .m = advance.fields.m[i],
+        .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0)};
+    if constexpr (particles::splits_positions<T>)
+      record.rest = (r - record.r.template to<double>()).template to<T>();
+    particles::store_record<dim, T>(records, i, record);
     if constexpr (Scheme::Wall::surfaces)
       if (particles::is_virtual(advance.fields.set[i]))
         particles::store_surface<dim, T>(vicinities, i, advance.surface(i));
@@ -122,7 +124,10 @@ struct WriteRecords {
   }
 
  private:
-  static SPHMBS_INLINE bool finite(T x) { return math::abs(x) <= std::numeric_limits<T>::max(); }
+  template <class U>
+  static SPHMBS_INLINE bool finite(U x) {
+    return math::abs(x) <= std::numeric_limits<U>::max();
+  }
 };
 
 /// Lets `write` loop over n particles, with the memory for its culprit.
@@ -141,12 +146,12 @@ template <class Scheme, class T, class Motion>
 struct CommitStep {
   static constexpr int dim = Scheme::dim;
   Advance<Scheme, T, Motion> advance;
-  geometry::Periodicity<dim, T> space;
+  geometry::Periodicity<dim, double> space;
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     const Stepped<dim, T> y = advance(i);
-    fields.set_position(i, space.wrap(y.r));
+    fields.set_place(i, space.wrap(y.r));
     fields.set_velocity(i, y.v);
     fields.rho[i] = y.rho;
     fields.e[i] = y.e;
@@ -171,21 +176,21 @@ template <class Scheme, class T, class Motion>
 struct MotionSurplus {
   static constexpr int dim = Scheme::dim;
   Advance<Scheme, T, Motion> advance;
-  geometry::Periodicity<dim, T> space;
+  geometry::Periodicity<dim, double> space;
 
   SPHMBS_INLINE Surplus operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     if (!particles::is_virtual(fields.set[i])) return {};
-    const Vec<dim, T> r = fields.position(i);
+    const Vec<dim> r = fields.place(i);
     const double dt = advance.dt;
     const boundary::Mark mark = advance.mark(i);
-    const Vec<dim, T> end = advance.motion.position(mark, r, advance.time, advance.time + dt);
-    Vec<dim, T> seen = r;
+    const Vec<dim> end = advance.motion.position(mark, r, advance.time, advance.time + dt);
+    Vec<dim, T> seen = r.template to<T>();
     if constexpr (Scheme::Wall::surfaces) seen += fields.depth[i] * fields.normal_at(i);
     const Vec<dim, T> v = advance.motion.velocity(mark, seen, advance.time);
     const double growth = static_cast<double>(advance.stretch(i)) - 1;
-    const Vec<dim, T> way = space.nearest(space.wrap(end) - r);
-    return {math::sqrt(norm2(way.template to<double>() - dt * v.template to<double>())) +
+    const Vec<dim> way = space.nearest(space.wrap(end) - r);
+    return {math::sqrt(norm2(way - dt * v.template to<double>())) +
             Scheme::Kernel::support * static_cast<double>(fields.h[i]) * math::max(growth, 0.0)};
   }
 };
@@ -194,7 +199,7 @@ struct MotionSurplus {
 /// velocities at its beginning say [m].
 template <execution::ExecutionPolicy Policy, class Scheme, class T, class Motion>
 double motion_surplus(const Advance<Scheme, T, Motion>& advance,
-                      const geometry::Periodicity<Scheme::dim, T>& space, std::size_t n) {
+                      const geometry::Periodicity<Scheme::dim, double>& space, std::size_t n) {
   if constexpr (std::is_same_v<Motion, boundary::Fixed>)
     return 0;
   else

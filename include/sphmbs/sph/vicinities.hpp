@@ -15,7 +15,7 @@ class Vicinities {
   /// For n particles. Those that no loop writes, of virtual particles without a state, are zero.
   void resize(std::size_t n) {
     if constexpr (Scheme::vicinity)
-      stored_ = Stored(std::vector<T>(n * particles::slopes_size<Scheme::dim>));
+      stored_ = Stored(std::vector<T>(n * particles::slopes_size<Scheme::dim, T>));
   }
 
   /// Evaluates the slopes of a stage, for n particles.

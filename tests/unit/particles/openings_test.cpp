@@ -83,7 +83,7 @@ TEMPLATE_LIST_TEST_CASE("particles can be replaced by a selection of themselves"
   cloud.add_virtual({{9, 9}}, {.rho = 6, .p = 1}, {.spacing = 0.1});
   sphmbs::particles::Particles<2, double, Policy> particles(cloud,
                                                             [](double, double p) { return p; });
-  for (std::size_t k = 0; k < 6 * sphmbs::particles::record_size<2>; ++k)
+  for (std::size_t k = 0; k < 6 * sphmbs::particles::record_size<2, double>; ++k)
     particles.records()[k] = static_cast<double>(k);
   const std::vector<std::uint32_t> order{5, 0, 3, 3, 1, 2, 2, 2};
   sphmbs::execution::Field<std::uint32_t, Policy> there{order};
@@ -97,7 +97,7 @@ TEMPLATE_LIST_TEST_CASE("particles can be replaced by a selection of themselves"
     CHECK(fields.position(i) == cloud.r[j]);
     CHECK(fields.velocity(i) == cloud.v[j]);
     CHECK(fields.set[i] == cloud.set[j]);
-    constexpr auto width = static_cast<std::size_t>(sphmbs::particles::record_size<2>);
+    constexpr auto width = static_cast<std::size_t>(sphmbs::particles::record_size<2, double>);
     CHECK(particles.records()[i * width + 3] == static_cast<double>(j * width + 3));
   }
 }

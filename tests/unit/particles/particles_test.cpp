@@ -85,7 +85,7 @@ TEST_CASE("a state or a resolution out of range is refused by name", "[particles
 TEST_CASE("a record read one by one or many at once is the record stored", "[particles]") {
   using namespace sphmbs::particles;
   const auto check = []<int Dim, class T>(std::integral_constant<int, Dim>, T) {
-    std::vector<T> memory(20 * record_size<Dim>);
+    std::vector<T> memory(20 * record_size<Dim, T>);
     for (std::size_t i = 0; i < 20; ++i) {
       const T x = static_cast<T>(100 * i);
       Record<Dim, T> s{.r = {},
