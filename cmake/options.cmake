@@ -10,6 +10,7 @@ option(SPHMBS_REQUIRE_ALL "Stop when a package of an enabled part is missing" OF
 option(SPHMBS_NATIVE "Compile for the processor of this computer" ${PROJECT_IS_TOP_LEVEL})
 option(SPHMBS_WERROR "Treat warnings as errors" OFF)
 set(SPHMBS_VECTOR_WIDTH "" CACHE STRING "Bits for -mprefer-vector-width, empty: the compiler's own")
+option(SPHMBS_FLOAT "All examples of gas with fields of float too (--precision)" OFF)
 set(SPHMBS_OFFLOAD "" CACHE STRING "Device policy: openacc, omp_target or cuda; empty: none")
 set_property(CACHE SPHMBS_OFFLOAD PROPERTY STRINGS "" openacc omp_target cuda)
 set(SPHMBS_SANITIZE "" CACHE STRING "Sanitizers as a list, for example address;undefined")

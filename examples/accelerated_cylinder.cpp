@@ -20,7 +20,7 @@ struct Start {
   double mach = 0.01;     // an impulse's first speed, or an acceleration's last one, by sound
 };
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void accelerated_cylinder(const examples::Settings& settings, const Start& start,
                           const std::string& coupling, Policy policy) {
   const double dx = settings.spacing, until = settings.until;
@@ -51,8 +51,8 @@ void accelerated_cylinder(const examples::Settings& settings, const Start& start
   surface.tie(cloud, set, coupling::points_of(body, structure.q(), cloud, set), structure.q());
   Gas gas{.eos = {.gamma = 1.4}};
   if constexpr (Gas::Wall::surfaces) gas.background = still.p;
-  sph::Fluid<Gas, Policy, coupling::Riding<2>> fluid(gas, domain, std::move(cloud),
-                                                     surface.motion(), policy);
+  sph::Fluid<Gas, Policy, coupling::Riding<2>, T> fluid(gas, domain, std::move(cloud),
+                                                        surface.motion(), policy);
   mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
 
@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "accelerated_cylinder",
                                       .title = "a cylinder set in motion in gas",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 0.05, .until = 6, .cfl = 0.4},
                                       .gas = true,
                                       .structure = true});
@@ -93,9 +94,9 @@ int main(int argc, char** argv) {
                           "first speed after an impulse, or last one under an acceleration");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
     examples::require(settings.until <= 10, "--until", settings.until, "at most 10 s");
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
-          scheme, [&]<class Gas>() { accelerated_cylinder<Gas>(s, start, coupling, policy); });
+          scheme, [&]<class Gas>() { accelerated_cylinder<Gas, T>(s, start, coupling, policy); });
     });
   });
 }

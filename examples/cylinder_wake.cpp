@@ -37,7 +37,7 @@ particles::State<2> start(const particles::State<2>& far, const Vec<2>& r) {
   return state;
 }
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy policy) {
   const double dx = settings.spacing;
   for (const double length : {wake.upstream, wake.downstream, wake.width})
@@ -87,7 +87,7 @@ void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy 
 
   Gas gas{.eos = {.gamma = 1.4}, .stress = {.viscosity = 1 / wake.reynolds}};
   if constexpr (Gas::Wall::surfaces) gas.background = stream.p;
-  sph::Fluid<Gas, Policy> fluid(gas, domain, std::move(cloud), {}, policy);
+  sph::Fluid<Gas, Policy, boundary::Fixed, T> fluid(gas, domain, std::move(cloud), {}, policy);
 
   examples::Session session(settings, "cylinder_wake", "wake of a circular cylinder", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
@@ -110,6 +110,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "cylinder_wake",
                                       .title = "wake of a circular cylinder in a stream",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 0.0625, .until = 60, .cfl = 0.4}});
   std::string scheme = "best";
   Wake wake;
@@ -121,12 +122,12 @@ int main(int argc, char** argv) {
   command_line.add_number("--width", wake.width, {.at_least = 4.0}, "m",
                           "from one cylinder to the next");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       using Paper = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas,
                                     sph::Newtonian>;
       using Best = sph::SmoothScheme<2, sph::Newtonian, boundary::NoSlip>;
-      examples::with_scheme<Paper, Best>(scheme,
-                                         [&]<class Gas>() { cylinder_wake<Gas>(s, wake, policy); });
+      examples::with_scheme<Paper, Best>(
+          scheme, [&]<class Gas>() { cylinder_wake<Gas, T>(s, wake, policy); });
     });
   });
 }

@@ -91,7 +91,7 @@ void without_air(examples::Settings settings, const Options& options) {
   session.finish();
 }
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   const auto whole = [dx](double length) {
@@ -140,8 +140,8 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   const std::vector<int> sets_I = wet(plates.I, 0, hinge), sets_II = wet(plates.II, hinge, 10);
 
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, 0, -9.81}, .background = still.p};
-  sph::Fluid<Gas, Policy, coupling::Riding<3>> fluid(gas, domain, std::move(cloud),
-                                                     surface.motion(), policy);
+  sph::Fluid<Gas, Policy, coupling::Riding<3>, T> fluid(gas, domain, std::move(cloud),
+                                                        surface.motion(), policy);
   Dynamics<Plates::Mechanism, solvers::SparseLDLT> bodies(plates.mechanism);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "falling_plates", "two hinged plates in air", system);
@@ -165,6 +165,7 @@ int main(int argc, char** argv) {
       {.name = "falling_plates",
        .title = "two hinged flexible plates that fall and swing in air",
        .backends = examples::backends(),
+       .precisions = examples::precisions(),
        .defaults = {.spacing = 0.2, .until = 1, .cfl = 0.4},
        .gas = true,
        .structure = true});
@@ -178,9 +179,9 @@ int main(int argc, char** argv) {
     if (options.no_air)
       return examples::with_host_backend(settings,
                                          [&](const auto& s, auto) { without_air(s, options); });
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<3>, sph::SmoothScheme<3>>(
-          options.scheme, [&]<class Gas>() { in_air<Gas>(s, options, policy); });
+          options.scheme, [&]<class Gas>() { in_air<Gas, T>(s, options, policy); });
     });
   });
 }

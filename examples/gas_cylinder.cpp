@@ -11,7 +11,7 @@
 
 using namespace sphmbs;
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void gas_cylinder(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
   examples::require(dx <= 2 && std::abs(100 / dx - std::round(100 / dx)) < 1e-6, "--spacing", dx,
@@ -38,7 +38,7 @@ void gas_cylinder(const examples::Settings& settings, Policy policy) {
 
   Gas gas{.eos = {.gamma = 1.4}, .acceleration = {3, 0}};  // [-], [m/s^2]
   if constexpr (Gas::Wall::surfaces) gas.background = at_rest.p;
-  sph::Fluid<Gas, Policy> fluid(gas, domain, std::move(cloud), {}, policy);
+  sph::Fluid<Gas, Policy, boundary::Fixed, T> fluid(gas, domain, std::move(cloud), {}, policy);
 
   examples::Session session(settings, "gas_cylinder", "airflow around a circular cylinder", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
@@ -56,13 +56,14 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "gas_cylinder",
                                       .title = "airflow around a circular cylinder in a pipe",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 0.5, .until = 1, .cfl = 0.4}});
   std::string scheme = "paper";
   examples::add_scheme(command_line, scheme);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
-          scheme, [&]<class Gas>() { gas_cylinder<Gas>(s, policy); });
+          scheme, [&]<class Gas>() { gas_cylinder<Gas, T>(s, policy); });
     });
   });
 }

@@ -18,7 +18,7 @@ struct Swing {
   double way = 0.01;  // out of the middle at the start, at rest [m]
 };
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void gas_spring(const examples::Settings& settings, const Swing& swing, const std::string& coupling,
                 Policy policy) {
   const double dx = settings.spacing;
@@ -60,8 +60,8 @@ void gas_spring(const examples::Settings& settings, const Swing& swing, const st
   surface.tie(cloud, faces,
               coupling::points_beside(piston.point({0, 0}), structure.q(), cloud, faces),
               structure.q());
-  sph::Fluid<Gas, Policy, coupling::Riding<1>> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
-                                                     std::move(cloud), surface.motion(), policy);
+  sph::Fluid<Gas, Policy, coupling::Riding<1>, T> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
+                                                        std::move(cloud), surface.motion(), policy);
   mbs::Dynamics<decltype(structure), mbs::solvers::SparseLU> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
 
@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
       {.name = "gas_spring",
        .title = "a piston between two columns of gas",
        .backends = examples::backends(),
+       .precisions = examples::precisions(),
        .defaults = {.spacing = 0.01, .until = 62, .cfl = 0.4, .threads = 1},
        .gas = true,
        .structure = true});
@@ -97,9 +98,9 @@ int main(int argc, char** argv) {
   command_line.add_number("--way", swing.way, {.above = 0.0, .at_most = 0.5}, "m",
                           "of the piston out of the middle at the start");
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<1>, sph::SmoothScheme<1>>(
-          scheme, [&]<class Gas>() { gas_spring<Gas>(s, swing, coupling, policy); });
+          scheme, [&]<class Gas>() { gas_spring<Gas, T>(s, swing, coupling, policy); });
     });
   });
 }

@@ -17,7 +17,7 @@ constexpr int dim = GUN_DIM;
 const std::string case_name = dim == 1 ? "lagrange_gun" : "lagrange_gun_2d";
 const std::string title = "Lagrange's gun in " + std::to_string(dim) + "D";
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void lagrange_gun(const examples::Settings& settings, const std::string& coupling, Policy policy) {
   const double dx = settings.spacing, length = 3;
   examples::require(dx <= 0.1 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
@@ -58,8 +58,8 @@ void lagrange_gun(const examples::Settings& settings, const std::string& couplin
   coupling::WettedSurface<dim, Policy> surface;
   surface.tie(cloud, face, coupling::points_beside(piston.point({0, 0}), gun.q(), cloud, face),
               gun.q());
-  sph::Fluid<Gas, Policy, coupling::Riding<dim>> fluid(Gas{.eos = {.gamma = 1.4}}, domain,
-                                                       std::move(cloud), surface.motion(), policy);
+  sph::Fluid<Gas, Policy, coupling::Riding<dim>, T> fluid(
+      Gas{.eos = {.gamma = 1.4}}, domain, std::move(cloud), surface.motion(), policy);
   mbs::Dynamics<decltype(gun), mbs::solvers::SparseLU> bodies(gun);
   coupling::Immersed system(fluid, bodies, surface);
 
@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
       {.name = case_name,
        .title = title,
        .backends = examples::backends(),
+       .precisions = examples::precisions(),
        .defaults = {.spacing = 0.0075, .until = 1, .cfl = 0.4, .threads = dim == 1 ? 1 : 2},
        .gas = true,
        .structure = true});
@@ -88,9 +89,9 @@ int main(int argc, char** argv) {
   examples::add_scheme(command_line, scheme);
   examples::add_coupling(command_line, coupling);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<dim>, sph::SmoothScheme<dim>>(
-          scheme, [&]<class Gas>() { lagrange_gun<Gas>(s, coupling, policy); });
+          scheme, [&]<class Gas>() { lagrange_gun<Gas, T>(s, coupling, policy); });
     });
   });
 }

@@ -96,7 +96,7 @@ void without_air(examples::Settings settings, const Options& options) {
   session.finish();
 }
 
-template <class Measure, class Gas, class Policy>
+template <class Measure, class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   for (const double length : {10.0, 1.0, 0.5})
@@ -158,8 +158,8 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   // Without a background pressure the gas presses on the bars where the other one, at the hinge, is
   // in its place: with 20 N at 0.1 m, three quarters of a bar's weight.
   const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, -9.81}, .background = still.p};
-  sph::Fluid<Gas, Policy, coupling::Riding<2>> fluid(gas, domain, std::move(cloud),
-                                                     surface.motion(), policy);
+  sph::Fluid<Gas, Policy, coupling::Riding<2>, T> fluid(gas, domain, std::move(cloud),
+                                                        surface.motion(), policy);
   Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT> bodies(pendulum.mechanism);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable in air",
@@ -185,6 +185,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "pendulum_on_cable",
                                       .title = "double pendulum that slides along a cable in air",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 0.05, .until = 1, .cfl = 0.4},
                                       .gas = true,
                                       .structure = true});
@@ -207,10 +208,10 @@ int main(int argc, char** argv) {
       return examples::with_host_backend(settings, [&](const auto& s, auto) {
         with_measure([&]<class Measure>() { without_air<Measure>(s, options); });
       });
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       with_measure([&]<class Measure>() {
         examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
-            options.scheme, [&]<class Gas>() { in_air<Measure, Gas>(s, options, policy); });
+            options.scheme, [&]<class Gas>() { in_air<Measure, Gas, T>(s, options, policy); });
       });
     });
   });

@@ -11,7 +11,7 @@
 
 using namespace sphmbs;
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void sealed_cavity(const examples::Settings& settings, Policy policy) {
   const double dx = settings.spacing;
   examples::require(std::abs(1 / dx - std::round(1 / dx)) < 1e-6 && dx <= 0.1, "--spacing", dx,
@@ -34,8 +34,8 @@ void sealed_cavity(const examples::Settings& settings, Policy policy) {
                     outside(cavity));
 
   const Gas gas{.eos = {.gamma = 1.4}};
-  sph::Fluid<Gas, Policy, boundary::Contraction> fluid(gas, domain, std::move(cloud), walls,
-                                                       policy);
+  sph::Fluid<Gas, Policy, boundary::Contraction, T> fluid(gas, domain, std::move(cloud), walls,
+                                                          policy);
 
   examples::Session session(settings, "sealed_cavity", "gas compressed in a sealed cavity", fluid);
   session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
@@ -50,13 +50,14 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "sealed_cavity",
                                       .title = "gas compressed in a sealed cavity",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 0.02, .until = 0.8, .cfl = 0.4}});
   std::string scheme = "paper";
   examples::add_scheme(command_line, scheme);
   return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::SmoothScheme<2>>(
-          scheme, [&]<class Gas>() { sealed_cavity<Gas>(s, policy); });
+          scheme, [&]<class Gas>() { sealed_cavity<Gas, T>(s, policy); });
     });
   });
 }

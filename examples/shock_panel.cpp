@@ -91,9 +91,9 @@ struct Channel {
     gas = {.eos = {.gamma = 1.4}, .background = setup.ahead.p};
   }
 
-  template <class Motion, class Policy>
+  template <class T, class Motion, class Policy>
   auto fluid(const Motion& motion, Policy policy) {
-    return sph::Fluid<Gas, Policy, Motion>(gas, domain, std::move(cloud), motion, policy);
+    return sph::Fluid<Gas, Policy, Motion, T>(gas, domain, std::move(cloud), motion, policy);
   }
 
   geometry::Domain<2> domain;
@@ -125,11 +125,11 @@ void record(examples::Session<System>& session, Fluid& fluid, const std::vector<
   pressure("top", {0, height - dx / 2});
 }
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void rigid_panel(const examples::Settings& settings, const std::string& setup_name, Policy policy) {
   const Setup setup = setup_named(setup_name);
   Channel<Gas> channel(setup, settings.spacing);
-  auto fluid = channel.fluid(boundary::Fixed{}, policy);
+  auto fluid = channel.template fluid<T>(boundary::Fixed{}, policy);
   examples::Session session(settings, "shock_panel", "shock on a rigid panel", fluid);
   session.note("panel", "rigid (--rigid); set-up " + setup_name);
   record(session, fluid, channel.panel, setup.height);
@@ -138,7 +138,7 @@ void rigid_panel(const examples::Settings& settings, const std::string& setup_na
   session.finish();
 }
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void flexible_panel(const examples::Settings& settings, const std::string& setup_name, int elements,
                     const std::string& coupling, Policy policy) {
   using Cable = mbs::ancf::Cable<2>;
@@ -159,7 +159,7 @@ void flexible_panel(const examples::Settings& settings, const std::string& setup
   for (const int set : channel.panel)
     surface.tie(channel.cloud, set, coupling::points_of(line, structure.q(), channel.cloud, set),
                 structure.q());
-  auto fluid = channel.fluid(surface.motion(), policy);
+  auto fluid = channel.template fluid<T>(surface.motion(), policy);
   mbs::Dynamics<decltype(structure), mbs::solvers::SparseLDLT> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "shock_panel", "shock on a flexible panel", system);
@@ -185,6 +185,7 @@ int main(int argc, char** argv) {
   examples::CommandLine command_line({.name = "shock_panel",
                                       .title = "shock on a thin panel in a channel",
                                       .backends = examples::backends(),
+                                      .precisions = examples::precisions(),
                                       .defaults = {.spacing = 1e-3, .until = 5e-3, .cfl = 0.4},
                                       .gas = true,
                                       .structure = true});
@@ -204,12 +205,12 @@ int main(int argc, char** argv) {
       examples::require(dx <= 5e-3 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
                         "--spacing", dx, "a whole fraction of 50 mm and of the channel's height");
     examples::require_memory(0.65 * setup_named(setup).height / (dx * dx), dx);
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::ShockScheme<2>>(scheme, [&]<class Gas>() {
         if (rigid)
-          rigid_panel<Gas>(s, setup, policy);
+          rigid_panel<Gas, T>(s, setup, policy);
         else
-          flexible_panel<Gas>(s, setup, elements, coupling, policy);
+          flexible_panel<Gas, T>(s, setup, elements, coupling, policy);
       });
     });
   });

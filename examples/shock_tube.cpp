@@ -30,7 +30,7 @@ struct Choices {
   bool no_xsph = false;
 };
 
-template <class Gas, class Policy>
+template <class Gas, class T, class Policy>
 void shock_tube(const examples::Settings& settings, const Choices& choices, Policy policy) {
   const double dx = settings.spacing;
   examples::require(dx <= 0.025, "--spacing", dx, "at most 0.025 m, a fortieth of the tube");
@@ -49,7 +49,8 @@ void shock_tube(const examples::Settings& settings, const Choices& choices, Poli
   Gas gas{.eos = {.gamma = 1.4}, .riemann = SelectedRiemann::of(solver)};
   const std::string limiter = choices.limiter == "auto" ? "van_leer" : choices.limiter;
   if constexpr (best) gas.reconstruction.limiter = SelectedLimiter::of(limiter);
-  sph::Fluid<Gas, Policy> fluid(gas, tube.domain(), std::move(cloud), {}, policy);
+  sph::Fluid<Gas, Policy, boundary::Fixed, T> fluid(gas, tube.domain(), std::move(cloud), {},
+                                                    policy);
 
   examples::Session session(settings, case_name, "Sod's shock tube in " + std::to_string(dim) + "D",
                             fluid);
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
       {.name = case_name,
        .title = "Sod's shock tube in " + std::to_string(dim) + "D",
        .backends = examples::backends(),
+       .precisions = examples::precisions(),
        .defaults = {.spacing = dim == 1 ? 0.5 / 356 : 0.5 / 128, .until = 0.2, .cfl = 0.4}});
   Choices choices;
   examples::add_scheme(command_line, choices.scheme);
@@ -85,12 +87,12 @@ int main(int argc, char** argv) {
                       "left out: the paper's scheme has no slopes to limit");
     examples::require(!best || !choices.no_xsph, "--no-xsph", "with --scheme best",
                       "left out: that scheme has no XSPH");
-    examples::with_backend(settings, [&](const auto& s, auto policy) {
+    examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       if (choices.no_xsph)
-        shock_tube<Scheme<sph::NoXsph>>(s, choices, policy);
+        shock_tube<Scheme<sph::NoXsph>, T>(s, choices, policy);
       else
         examples::with_scheme<Scheme<>, Best>(
-            choices.scheme, [&]<class Gas>() { shock_tube<Gas>(s, choices, policy); });
+            choices.scheme, [&]<class Gas>() { shock_tube<Gas, T>(s, choices, policy); });
     });
   });
 }

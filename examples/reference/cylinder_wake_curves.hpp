@@ -109,7 +109,8 @@ void draw_vorticity(Session<Fluid>& session) {
     const auto set = download<Policy>(fields.set, n);
     const auto all_x = download<Policy>(fields.r[0], n);
     const auto all_y = download<Policy>(fields.r[1], n);
-    const auto slopes = download<Policy>(fluid.vicinities(), n * particles::slopes_size<2>);
+    const auto slopes = download<Policy>(fluid.vicinities(),
+                                         n * particles::slopes_size<2, typename Fluid::NumberType>);
     std::vector<double> x, y, vorticity;
     for (std::size_t i = 0; i < n; ++i) {
       if (set[i] != particles::gas) continue;

@@ -28,8 +28,18 @@ inline std::vector<std::string> host_backends() {
   return names;
 }
 
-/// Calls run(settings, policy) with the policy the settings name, on as many threads as they say.
-/// @throws InvalidInput where its device is missing.
+/// The number types of fields that a program is compiled with, the default first.
+inline std::vector<std::string> precisions() {
+#if defined(SPHMBS_WITH_FLOAT)
+  return {"double", "float"};
+#else
+  return {"double"};
+#endif
+}
+
+/// Calls run.operator()<T>(settings, policy) with the policy and the number type T of fields that
+/// the settings name, on as many threads as they say.
+/// @throws InvalidInput where the policy's device is missing.
 template <class Run>
 void with_backend(const Settings& settings, Run&& run) {
   execution::with_policy(settings.backend, [&]<class Policy>(Policy policy) {
@@ -37,20 +47,27 @@ void with_backend(const Settings& settings, Run&& run) {
     if constexpr (std::is_same_v<typename Policy::Host, execution::Serial>) adapted.threads = 1;
     if constexpr (!execution::on_host<Policy>) Policy::device();
     omp_set_num_threads(adapted.threads);
-    run(adapted, policy);
+#if defined(SPHMBS_WITH_FLOAT)
+    if (settings.precision == "float") return run.template operator()<float>(adapted, policy);
+#endif
+    run.template operator()<double>(adapted, policy);
   });
 }
 
-/// The same for policies of the host alone.
+/// The same for bodies alone: run(settings, policy) with a policy of the host.
 template <class Run>
 void with_host_backend(const Settings& settings, Run&& run) {
-  with_backend(settings, [&]<class Policy>(const Settings& adapted, Policy policy) {
-    if constexpr (execution::on_host<Policy>)
-      run(adapted, policy);
-    else
-      require(false, "--backend", settings.backend,
-              "a policy of the host: bodies alone have no work for a device");
+  bool found = false;
+  execution::for_compiled([&]<class Policy>(Policy policy) {
+    if constexpr (execution::on_host<Policy>) {
+      if (settings.backend != policy.name) return;
+      found = true;
+      omp_set_num_threads(settings.threads);
+      run(settings, policy);
+    }
   });
+  require(found, "--backend", settings.backend,
+          "a policy of the host: bodies alone have no work for a device");
 }
 
 /// "openmp, 2 threads".

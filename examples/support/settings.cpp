@@ -250,6 +250,9 @@ void CommandLine::Parts::add_common_options() {
   add_one_of("--backend", settings.backend, program.backends, "execution policy",
              "compiled into this program: " + joined(program.backends, ", ") +
                  "; SPHMBS_OFFLOAD adds openacc, omp_target or cuda (docs/gpu.md)");
+  if (program.precisions.size() > 1)
+    add_one_of("--precision", settings.precision, program.precisions,
+               "number type of the gas's fields", "one of " + joined(program.precisions, ", "));
   add_value("--output", "DIR", "results", "a directory", defaults.output.string(),
             [this](const std::string& text) -> Store {
               return [this, text] { settings.output = text; };

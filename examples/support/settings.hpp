@@ -29,6 +29,8 @@ struct Settings {
   int threads = 0;
   /// Name of the execution policy; empty among the defaults: the first of Program::backends.
   std::string backend{};
+  /// Number type of the fields of a gas: "double" or "float".
+  std::string precision = "double";
   /// Directory of the results; empty among the defaults: results/<name of the program>.
   std::filesystem::path output{};
   /// Files of the same names in `output` may be replaced.
@@ -60,6 +62,9 @@ struct Program {
   std::string title{};
   /// Execution policies that are compiled in, at least one.
   std::vector<std::string> backends{};
+  /// Number types of fields that are compiled in, of a program with gas; --precision chooses where
+  /// there are several.
+  std::vector<std::string> precisions{"double"};
   Settings defaults{};
   /// What is simulated decides on the options: --spacing and --cfl belong to a gas,
   /// --spectral-radius to a structure, and --accuracy to a structure without gas.
