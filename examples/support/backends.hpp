@@ -45,7 +45,7 @@ void with_backend(const Settings& settings, Run&& run) {
   execution::with_policy(settings.backend, [&]<class Policy>(Policy policy) {
     Settings adapted = settings;
     if constexpr (std::is_same_v<typename Policy::Host, execution::Serial>) adapted.threads = 1;
-    if constexpr (!execution::on_host<Policy>) Policy::device();
+    Policy::device();
     omp_set_num_threads(adapted.threads);
 #if defined(SPHMBS_WITH_FLOAT)
     if (settings.precision == "float") return run.template operator()<float>(adapted, policy);
@@ -76,24 +76,11 @@ inline std::string threads_of(const Settings& settings) {
          (settings.threads == 1 ? " thread" : " threads");
 }
 
-/// Where the loops of a policy run, in words, and how much memory there is for particles [bytes]; 0
-/// where it is not known.
-struct Where {
-  std::string name;
-  double memory;
-};
-
+/// Where the loops of a policy run, in words.
 template <class Policy>
-Where where(const Settings& settings) {
-  if constexpr (execution::on_host<Policy>) {
-    return {threads_of(settings), memory_of_host()};
-  } else {
-    const auto device = Policy::device();
-    const double free = static_cast<double>(device.free + Policy::held());
-    return {settings.backend + " on " + device.name, device.is_host      ? memory_of_host()
-                                                     : device.memory > 0 ? free
-                                                                         : 0};
-  }
+std::string place_of_loops(const Settings& settings) {
+  if (execution::on_host<Policy>) return threads_of(settings);
+  return settings.backend + " on " + Policy::device().name;
 }
 
 }  // namespace sphmbs::examples

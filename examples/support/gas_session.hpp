@@ -37,13 +37,13 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
   std::vector<BannerLine> banner(const Settings& settings) {
     const std::string fixed =
         settings.step ? "fixed at " + format_exact(*settings.step) + " s; " : "";
-    const Where at = where<Policy>(settings);
+    const double memory = static_cast<double>(Policy::device().free);
     // Neighbours that come closer make lists longer, and new lists are made beside old fields.
-    const double most = at.memory / (1.25 * static_cast<double>(fluid_.bytes() / fluid_.size()));
+    const double most = memory / (1.25 * static_cast<double>(fluid_.bytes() / fluid_.size()));
     const std::string place =
-        at.name + (sizeof(T) < sizeof(double) ? ", float" : "") +
-        (at.memory > 0 ? ", room for about " + format_number(most, 2) + " particles"
-                       : ", which does not tell how much memory it has");
+        place_of_loops<Policy>(settings) + (sizeof(T) < sizeof(double) ? ", float" : "") +
+        (memory > 0 ? ", room for about " + format_number(most, 2) + " particles"
+                    : ", which does not tell how much memory it has");
     return {{"particles",
              format_count(static_cast<std::int64_t>(fluid_.gas_count())) + " gas + " +
                  format_count(static_cast<std::int64_t>(fluid_.virtual_count())) + " virtual" +

@@ -15,11 +15,11 @@
 #include <utility>
 
 #include <omp.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
 #include "sphmbs/core/error.hpp"
+#include "sphmbs/execution/host_memory.hpp"
 #include "sphmbs/version.hpp"
 #include "support/build_info.hpp"
 #include "support/output_folder.hpp"
@@ -482,13 +482,10 @@ void require(bool condition, std::string_view option, std::string_view value,
   if (!condition) refuse(option, value, "must be " + std::string(allowed));
 }
 
-double memory_of_host() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
 void require_memory(double particles, double spacing) {
   constexpr double bytes_per_particle = 600;
-  const double most = memory_of_host() / bytes_per_particle;
+  const double most =
+      static_cast<double>(execution::HostMemory::device().memory) / bytes_per_particle;
   require(particles < most, "--spacing", spacing,
           "wide enough for the memory of this computer, about " + format_number(most, 2) +
               " particles");

@@ -122,9 +122,6 @@ void require(bool condition, std::string_view option, double value, std::string_
 void require(bool condition, std::string_view option, std::string_view value,
              std::string_view allowed);
 
-/// Memory of this computer [bytes].
-double memory_of_host();
-
 /// Checks that about `particles` of them fit into the memory of this computer. Throws InvalidInput
 /// naming --spacing, its value and how many would fit.
 void require_memory(double particles, double spacing);

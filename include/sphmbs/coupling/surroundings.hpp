@@ -132,10 +132,13 @@ class Surroundings {
   /// once.
   template <class Visit>
   void for_pairs(const Visit& visit) const {
-    for (const auto& [o, wet] : others_)
-      around(o, [&, &o = o, wet = wet](const Seen<Dim>& p) {
+    for (const auto& other : others_) {
+      const Seen<Dim>& o = other.first;
+      const bool wet = other.second;
+      around(o, [&](const Seen<Dim>& p) {
         if (p.set != o.set && (!wet || p.set < o.set)) visit(p, o);
       });
+    }
   }
   /// Calls visit(p, g) for particles p of bodies and gas g near them.
   template <class Visit>

@@ -67,6 +67,8 @@ struct Cuda : DeviceMemory<detail::CudaMemory> {
     constexpr unsigned threads = 128;
     detail::cuda_loop<<<static_cast<unsigned>((n + threads - 1) / threads), threads>>>(n, body);
     detail::check_cuda(cudaGetLastError());
+    // So that errors and times belong to the loop that they come from.
+    detail::check_cuda(cudaDeviceSynchronize());
   }
 
   static int concurrency() { return 1 << 16; }
@@ -78,6 +80,7 @@ struct Cuda : DeviceMemory<detail::CudaMemory> {
     cudaDeviceProp properties;
     detail::check_cuda(cudaGetDeviceProperties(&properties, 0));
     detail::check_cuda(cudaMemGetInfo(&found.free, &found.memory));
+    found.free += held();
     found.name = properties.name;
     return found;
   }

@@ -8,6 +8,8 @@
 #include <new>
 #include <unordered_map>
 
+#include <sphmbs/execution/host_memory.hpp>
+
 namespace sphmbs::execution {
 
 /// What has crossed the bus between host and device, counted copy by copy.
@@ -89,6 +91,13 @@ class DeviceMemory {
   }
 
  protected:
+  /// The host in a device's place.
+  static Device stand_in(const char* name) {
+    Device host = HostMemory::device();
+    host.name = name;
+    return host;
+  }
+
   static void count_launch(std::size_t argument_bytes) {
     ++the_pool().bus.launches;
     the_pool().bus.arguments += argument_bytes;

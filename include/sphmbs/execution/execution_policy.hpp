@@ -6,6 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include <sphmbs/execution/device.hpp>
+
 /// Execution policies: where particle loops run and where particle fields live. A policy is one
 /// header and the only place that knows its pragmas, allocation and copies.
 namespace sphmbs::execution {
@@ -27,6 +29,7 @@ struct Nothing {
 ///   allocate      memory [bytes] where the loops run; throws std::bad_alloc
 ///   upload        host to policy memory; download the other way
 ///   for_each      body(i) for every i < n, in any order and in parallel
+///   device        a Device, where the loops run; throws InvalidInput where there is none
 ///   concurrency   how many loop bodies run at once
 ///   chunk         items that one loop body of a reduction or a scan takes, one after the other
 template <class P>
@@ -38,6 +41,7 @@ concept ExecutionPolicy = requires(std::size_t n, void* there, const void* here)
   P::upload(there, here, n);
   P::download(there, here, n);
   P::for_each(n, Nothing{});
+  { P::device() } -> std::same_as<Device>;
   { P::concurrency() } -> std::convertible_to<int>;
   { P::chunk } -> std::convertible_to<std::size_t>;
   typename P::Host;

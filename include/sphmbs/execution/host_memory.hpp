@@ -5,6 +5,10 @@
 #include <cstring>
 #include <new>
 
+#include <unistd.h>
+
+#include <sphmbs/execution/device.hpp>
+
 namespace sphmbs::execution {
 
 /// Memory of the policies that run on the host: aligned to cache lines, copies are plain copies.
@@ -19,6 +23,12 @@ struct HostMemory {
   }
   static void download(void* here, const void* there, std::size_t bytes) {
     upload(here, there, bytes);
+  }
+
+  static Device device() {
+    const std::size_t memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                               static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
+    return {.name = "the host", .memory = memory, .free = memory, .is_host = true};
   }
 };
 

@@ -68,7 +68,7 @@ struct OpenACC : DeviceMemory<detail::AccMemory> {
   static Device device() {
     detail::AccMemory::require();
     if (detail::AccMemory::on_host())
-      return {.name = "the host, one thread (ACC_DEVICE_TYPE=host)", .is_host = true};
+      return stand_in("the host, one thread (ACC_DEVICE_TYPE=host)");
     const acc_device_t type = acc_get_device_type();
     const int number = acc_get_device_num(type);
     const auto size = [&](acc_device_property_t property) {
@@ -76,7 +76,7 @@ struct OpenACC : DeviceMemory<detail::AccMemory> {
     };
     return {.name = acc_get_property_string(number, type, acc_property_name),
             .memory = size(acc_property_memory),
-            .free = size(acc_property_free_memory)};
+            .free = size(acc_property_free_memory) + held()};
   }
 };
 

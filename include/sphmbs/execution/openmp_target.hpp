@@ -84,8 +84,7 @@ struct OpenMPTarget : DeviceMemory<detail::TargetMemory> {
   /// @throws InvalidInput where there is none and OMP_TARGET_OFFLOAD is not DISABLED.
   static Device device() {
     detail::TargetMemory::require();
-    if (detail::TargetMemory::on_host())
-      return {.name = "the host (OMP_TARGET_OFFLOAD=DISABLED)", .is_host = true};
+    if (detail::TargetMemory::on_host()) return stand_in("the host (OMP_TARGET_OFFLOAD=DISABLED)");
     return {.name = "OpenMP device " + std::to_string(omp_get_default_device()) + " of " +
                     std::to_string(omp_get_num_devices())};
   }

@@ -64,15 +64,9 @@ class Particles {
       field.upload(column);
     };
     for (int k = 0; k < Dim; ++k) {
-      put(r_[k], [&](std::size_t i) { return cloud.r[i][k]; });
-      if constexpr (splits_positions<T>) {
-        rest_[k] = Field<T>(padded());
-        put(rest_[k], [&](std::size_t i) {
-          return cloud.r[i][k] - static_cast<double>(static_cast<T>(cloud.r[i][k]));
-        });
-      }
       put(v_[k], [&](std::size_t i) { return cloud.v[i][k]; });
     }
+    put_places(cloud.r, column);
     put(rho_, [&](std::size_t i) { return cloud.rho[i]; });
     put(e_, [&](std::size_t i) { return energy(cloud.rho[i], cloud.p[i]); });
     put(h_, [&](std::size_t i) { return cloud.h[i]; });
@@ -214,6 +208,19 @@ class Particles {
     for (int k = 0; k < Dim; ++k)
       for (Field<T>* f : {&normal_[k], &push_[k], &rest_[k]}) all.push_back(f);
     return all;
+  }
+
+  void put_places(const std::vector<Vec<Dim>>& places, std::vector<T>& column) {
+    std::vector<T> rest(padded());
+    for (int k = 0; k < Dim; ++k) {
+      for (std::size_t i = 0; i < size_; ++i) {
+        Vec<1, T> rounded;
+        rest[i] = split(Vec<1>{places[i][k]}, rounded)[0];
+        column[i] = rounded[0];
+      }
+      r_[k].upload(column);
+      if constexpr (splits_positions<T>) rest_[k] = Field<T>(rest);
+    }
   }
 
   // Into new memory for `capacity` entries.

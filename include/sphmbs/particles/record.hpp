@@ -37,6 +37,13 @@ SPHMBS_INLINE Vec<Dim, N> way(const Record<Dim, T>& a, const Record<Dim, N>& b) 
   return d;
 }
 
+/// Moves a record to a position.
+template <int Dim, class T>
+SPHMBS_INLINE void set_place(Record<Dim, T>& record, const Vec<Dim>& x) {
+  [[maybe_unused]] const Vec<Dim, T> rest = split(x, record.r);
+  if constexpr (splits_positions<T>) record.rest = rest;
+}
+
 /// So many numbers or a few more, to fill 16 bytes: devices then read two or four at once.
 template <class T>
 constexpr int whole_words(int numbers) {

@@ -19,10 +19,7 @@ struct FollowMotion {
     if (!rides(advance, i)) return;
     const Stepped<dim, T> y = advance(i);
     auto record = particles::load_record<dim>(records, i);
-    const Vec<dim> r = space.wrap(y.r);
-    record.r = r.template to<T>();
-    if constexpr (particles::splits_positions<T>)
-      record.rest = (r - record.r.template to<double>()).template to<T>();
+    particles::set_place(record, space.wrap(y.r));
     record.v = y.v;
     particles::store_record<dim, T>(records, i, record);
     if constexpr (Scheme::Wall::surfaces)

@@ -8,21 +8,24 @@
 
 namespace sphmbs::sph {
 
+/// Fields that have slopes: density, pressure, components of velocity.
+template <int Dim>
+inline constexpr int sloping_fields = 2 + Dim;
+
 /// Sums over neighbours for the slopes of a particle: F = -(dW/dr) / r weighs.
 template <int Dim, class N>
 struct SlopeSums {
-  static constexpr int fields = 2 + Dim;  // density, pressure, components of velocity
-  Vec<Dim, N> moment[Dim];                // sum V_b F d d^T [-]
-  Vec<Dim, N> slope[fields];              // sum V_b F d (f_b - f_a)
-  N low[fields];                          // ranges of f_b - f_a
-  N high[fields];
+  Vec<Dim, N> moment[Dim];                 // sum V_b F d d^T [-]
+  Vec<Dim, N> slope[sloping_fields<Dim>];  // sum V_b F d (f_b - f_a)
+  N low[sloping_fields<Dim>];              // ranges of f_b - f_a
+  N high[sloping_fields<Dim>];
   N reach2 = N(0);  // squared distance of the farthest neighbour [m^2]
 
   SPHMBS_INLINE SlopeSums() {
 #pragma GCC unroll 3
     for (int k = 0; k < Dim; ++k) moment[k] = Vec<Dim, N>::all(N(0));
 #pragma GCC unroll 5
-    for (int f = 0; f < fields; ++f) {
+    for (int f = 0; f < sloping_fields<Dim>; ++f) {
       slope[f] = Vec<Dim, N>::all(N(0));
       low[f] = high[f] = N(0);
     }
@@ -54,18 +57,18 @@ struct SlopeTerm {
     if constexpr (!Scheme::Wall::evolves) weight = weight * (N(T(1)) - b.shell);
 #pragma GCC unroll 3
     for (int k = 0; k < dim; ++k) sum.moment[k] += (weight * d[k]) * d;
-    N jump[SlopeSums<dim, N>::fields];
+    N jump[sloping_fields<dim>];
     jump[0] = b.rho - N(a.rho);
     jump[1] = b.p - N(a.p);
 #pragma GCC unroll 3
     for (int k = 0; k < dim; ++k) jump[2 + k] = b.v[k] - N(a.v[k]);
 #pragma GCC unroll 5
-    for (int f = 0; f < SlopeSums<dim, N>::fields; ++f) sum.slope[f] += (weight * jump[f]) * d;
+    for (int f = 0; f < sloping_fields<dim>; ++f) sum.slope[f] += (weight * jump[f]) * d;
     if constexpr (Scheme::Reconstruction::limits_particles) {
       const auto inside = weight > N(T(0));
       sum.reach2 = math::max(sum.reach2, math::select(inside, r2, N(T(0))));
 #pragma GCC unroll 5
-      for (int f = 0; f < SlopeSums<dim, N>::fields; ++f) {
+      for (int f = 0; f < sloping_fields<dim>; ++f) {
         const N seen = math::select(inside, jump[f], N(T(0)));
         sum.low[f] = math::min(sum.low[f], seen);
         sum.high[f] = math::max(sum.high[f], seen);
@@ -81,7 +84,7 @@ struct SlopeTerm {
 template <class Scheme, class T, int lanes>
 struct EvaluateSlopes {
   static constexpr int dim = Scheme::dim;
-  static constexpr int fields = SlopeSums<dim, T>::fields;
+  static constexpr int fields = sloping_fields<dim>;
 
   geometry::Periodicity<dim, T> space;
   Gathered<T> from;

@@ -101,9 +101,8 @@ struct WriteRecords {
     const Stepped<dim, T> y = advance(i);
     const T p = scheme.eos.pressure(y.rho, y.e);
     const T c = scheme.eos.sound_speed(y.rho, p);
-    const Vec<dim> r = space.wrap(y.r);
     particles::Record<dim, T> record{
-        .r = r.template to<T>(),
+        .r = {},
         .v = y.v,
         .rho = y.rho,
         .p = p,
@@ -111,8 +110,7 @@ struct WriteRecords {
         .h = y.h,
         .m = advance.fields.m[i],
         .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0)};
-    if constexpr (particles::splits_positions<T>)
-      record.rest = (r - record.r.template to<double>()).template to<T>();
+    particles::set_place(record, space.wrap(y.r));
     particles::store_record<dim, T>(records, i, record);
     if constexpr (Scheme::Wall::surfaces)
       if (particles::is_virtual(advance.fields.set[i]))

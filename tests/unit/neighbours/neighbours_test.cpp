@@ -14,6 +14,7 @@
 #include "support/catch.hpp"
 #include "support/clouds.hpp"
 #include "support/errors.hpp"
+#include "support/on_host.hpp"
 #include "support/policies.hpp"
 #include "support/rates.hpp"
 
@@ -37,12 +38,9 @@ Lists lists_of(const Cloud<Dim>& cloud, const Domain<Dim>& domain, const Reach& 
   sphmbs::particles::Particles<Dim, T, Policy> particles(cloud, [](double, double) { return 1.0; });
   Search<Dim, T, Policy> search;
   search.rebuild(particles, domain, reach);
-  const auto view = search.view();
-  const std::uint32_t* id = particles.fields().id;
   Lists lists(cloud.size());
-  for (std::size_t a = 0; a < cloud.size(); ++a)
-    for (std::uint64_t i = view.first[a]; i < view.first[a + 1]; ++i)
-      lists[id[a]].push_back(id[view.list[i]]);
+  test::for_listed<Policy>(search.view(), particles.fields().id, cloud.size(),
+                           [&](std::uint32_t a, std::uint32_t b) { lists[a].push_back(b); });
   return lists;
 }
 
@@ -290,18 +288,18 @@ TEMPLATE_LIST_TEST_CASE("sorting by cells takes all of a particle's data along",
   CellList<3, double, TestType> search;
   for (int again = 0; again < 3; ++again)
     search.rebuild(particles, domain, {.support = 3, .skin = 0, .h_max = largest_h(cloud)});
-  const auto fields = particles.fields();
+  const test::FieldsOnHost fields(particles);
   std::set<std::uint32_t> ids;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::uint32_t id = fields.id[i];
+    const std::uint32_t id = fields->id[i];
     ids.insert(id);
-    CHECK(fields.position(i) == cloud.r[id]);
-    CHECK(fields.velocity(i) == cloud.v[id]);
-    CHECK(fields.rho[i] == cloud.rho[id]);
-    CHECK(fields.e[i] == cloud.p[id] / cloud.rho[id]);
-    CHECK(fields.h[i] == cloud.h[id]);
-    CHECK(fields.m[i] == cloud.m[id]);
-    CHECK(fields.set[i] == cloud.set[id]);
+    CHECK(fields->position(i) == cloud.r[id]);
+    CHECK(fields->velocity(i) == cloud.v[id]);
+    CHECK(fields->rho[i] == cloud.rho[id]);
+    CHECK(fields->e[i] == cloud.p[id] / cloud.rho[id]);
+    CHECK(fields->h[i] == cloud.h[id]);
+    CHECK(fields->m[i] == cloud.m[id]);
+    CHECK(fields->set[i] == cloud.set[id]);
   }
   CHECK(ids.size() == cloud.size());
 }
@@ -319,12 +317,9 @@ TEMPLATE_LIST_TEST_CASE("lists made again from the same search are those of a fr
   for (const double support : {3.0, 1.0, 0.001, 3.0}) {
     const Reach reach{.support = support, .skin = 0, .h_max = largest_h(cloud)};
     search.rebuild(particles, domain, reach);
-    const auto view = search.view();
     Lists found(cloud.size());
-    const std::uint32_t* id = particles.fields().id;
-    for (std::size_t a = 0; a < cloud.size(); ++a)
-      for (std::uint64_t i = view.first[a]; i < view.first[a + 1]; ++i)
-        found[id[a]].push_back(id[view.list[i]]);
+    test::for_listed<TestType>(search.view(), particles.fields().id, cloud.size(),
+                               [&](std::uint32_t a, std::uint32_t b) { found[a].push_back(b); });
     CHECK(sorted(found) == sorted(policy_lists(cloud, reach)));
   }
 }

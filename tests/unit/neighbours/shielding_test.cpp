@@ -11,6 +11,7 @@
 
 #include "support/catch.hpp"
 #include "support/clouds.hpp"
+#include "support/on_host.hpp"
 #include "support/policies.hpp"
 
 namespace {
@@ -74,11 +75,11 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> listed(const Case<Dim>& c) {
                                                               [](double, double) { return 1.0; });
   sphmbs::neighbours::CellList<Dim, double, Policy> search;
   search.rebuild(particles, c.domain, {.support = 3, .skin = 0, .h_max = 1.25 * spacing});
-  const auto view = search.view();
-  const auto* id = particles.fields().id;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (std::size_t a = 0; a < particles.size(); ++a)
-    for (auto k = view.first[a]; k < view.last[a]; ++k) pairs.insert({id[a], id[view.list[k]]});
+  test::for_listed<Policy>(search.view(), particles.fields().id, particles.size(),
+                           [&](std::uint32_t a, std::uint32_t b) {
+                             pairs.insert({a, b});
+                           });
   return pairs;
 }
 

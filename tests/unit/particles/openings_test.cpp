@@ -6,6 +6,7 @@
 
 #include "support/catch.hpp"
 #include "support/errors.hpp"
+#include "support/on_host.hpp"
 #include "support/policies.hpp"
 
 namespace {
@@ -83,21 +84,23 @@ TEMPLATE_LIST_TEST_CASE("particles can be replaced by a selection of themselves"
   cloud.add_virtual({{9, 9}}, {.rho = 6, .p = 1}, {.spacing = 0.1});
   sphmbs::particles::Particles<2, double, Policy> particles(cloud,
                                                             [](double, double p) { return p; });
-  for (std::size_t k = 0; k < 6 * sphmbs::particles::record_size<2, double>; ++k)
-    particles.records()[k] = static_cast<double>(k);
+  constexpr auto width = static_cast<std::size_t>(sphmbs::particles::record_size<2, double>);
+  std::vector<double> records(6 * width);
+  for (std::size_t k = 0; k < records.size(); ++k) records[k] = static_cast<double>(k);
+  Policy::upload(particles.records(), records.data(), records.size() * sizeof(double));
   const std::vector<std::uint32_t> order{5, 0, 3, 3, 1, 2, 2, 2};
   sphmbs::execution::Field<std::uint32_t, Policy> there{order};
   particles.select(there.data(), order.size());
   REQUIRE(particles.size() == order.size());
-  const auto fields = particles.fields();
+  const test::FieldsOnHost fields(particles);
+  const auto selected = test::fetch<Policy>(particles.records(), order.size() * width);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::uint32_t j = order[i];
-    CHECK(fields.id[i] == j);
-    CHECK(fields.rho[i] == cloud.rho[j]);
-    CHECK(fields.position(i) == cloud.r[j]);
-    CHECK(fields.velocity(i) == cloud.v[j]);
-    CHECK(fields.set[i] == cloud.set[j]);
-    constexpr auto width = static_cast<std::size_t>(sphmbs::particles::record_size<2, double>);
-    CHECK(particles.records()[i * width + 3] == static_cast<double>(j * width + 3));
+    CHECK(fields->id[i] == j);
+    CHECK(fields->rho[i] == cloud.rho[j]);
+    CHECK(fields->position(i) == cloud.r[j]);
+    CHECK(fields->velocity(i) == cloud.v[j]);
+    CHECK(fields->set[i] == cloud.set[j]);
+    CHECK(selected[i * width + 3] == static_cast<double>(j * width + 3));
   }
 }

@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/clouds.hpp"
 #include "support/errors.hpp"
+#include "support/on_host.hpp"
 #include "support/policies.hpp"
 
 namespace {
@@ -98,6 +99,7 @@ TEST_CASE("a record read one by one or many at once is the record stored", "[par
                        .shell = x + 25};
       for (int k = 0; k < Dim; ++k) {
         s.r[k] = x + static_cast<T>(k);
+        if constexpr (splits_positions<T>) s.rest[k] = x + static_cast<T>(30 + k);
         s.v[k] = x + static_cast<T>(10 + k);
       }
       store_record<Dim, T>(memory.data(), i, s);
@@ -109,6 +111,7 @@ TEST_CASE("a record read one by one or many at once is the record stored", "[par
     };
     for (int k = 0; k < Dim; ++k) {
       lanes_are(many.r[k], static_cast<T>(k));
+      if constexpr (splits_positions<T>) lanes_are(many.rest[k], static_cast<T>(30 + k));
       lanes_are(many.v[k], static_cast<T>(10 + k));
     }
     lanes_are(many.rho, 20);
@@ -124,6 +127,7 @@ TEST_CASE("a record read one by one or many at once is the record stored", "[par
   check(std::integral_constant<int, 1>{}, 1.0);
   check(std::integral_constant<int, 2>{}, 1.0f);
   check(std::integral_constant<int, 3>{}, 1.0);
+  check(std::integral_constant<int, 3>{}, 1.0f);
 }
 
 TEMPLATE_LIST_TEST_CASE("particles are the cloud's, with the energy of the equation of state",
@@ -131,17 +135,19 @@ TEMPLATE_LIST_TEST_CASE("particles are the cloud's, with the energy of the equat
   const auto cloud = test::disordered_cloud<2>(5, 0.1, 1);
   sphmbs::particles::Particles<2, float, TestType> particles(
       cloud, [](double rho, double p) { return p / (0.4 * rho); });
-  const auto fields = particles.fields();
+  const test::FieldsOnHost fields(particles);
   REQUIRE(particles.size() == 25);
   for (std::size_t i = 0; i < 25; ++i) {
-    CHECK(fields.id[i] == i);
-    CHECK(fields.position(i) == cloud.r[i].to<float>());
-    CHECK(fields.velocity(i) == cloud.v[i].to<float>());
-    CHECK(fields.rho[i] == static_cast<float>(cloud.rho[i]));
-    CHECK(fields.e[i] == static_cast<float>(cloud.p[i] / (0.4 * cloud.rho[i])));
-    CHECK(fields.h[i] == static_cast<float>(cloud.h[i]));
-    CHECK(fields.m[i] == static_cast<float>(cloud.m[i]));
-    CHECK(fields.set[i] == 0);
+    CHECK(fields->id[i] == i);
+    // A float and its rest are better than a float by far.
+    CHECK(std::sqrt(norm2(fields->position(i) - cloud.r[i].to<float>())) < 1e-7);
+    CHECK(std::sqrt(norm2(fields->place(i) - cloud.r[i])) < 1e-14);
+    CHECK(fields->velocity(i) == cloud.v[i].to<float>());
+    CHECK(fields->rho[i] == static_cast<float>(cloud.rho[i]));
+    CHECK(fields->e[i] == static_cast<float>(cloud.p[i] / (0.4 * cloud.rho[i])));
+    CHECK(fields->h[i] == static_cast<float>(cloud.h[i]));
+    CHECK(fields->m[i] == static_cast<float>(cloud.m[i]));
+    CHECK(fields->set[i] == 0);
   }
   CHECK(particles.bytes() >= 25 * (8 + 4) * sizeof(float));
 }

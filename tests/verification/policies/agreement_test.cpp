@@ -42,7 +42,6 @@ Setup<Scheme> cube(int per_side) {
 }
 
 struct Channel {
-  static constexpr int dim = 2;
   double distance(Vec<2> x) const { return std::min(x[1] - 0.6, 2.4 - x[1]); }
 };
 
