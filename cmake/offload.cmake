@@ -82,22 +82,15 @@ endfunction()
 
 # Sources of programs that link sphmbs::cuda have the language CUDA.
 function(_sphmbs_cuda)
-  include(CheckLanguage)
-  check_language(CUDA)
-  if(NOT CMAKE_CUDA_COMPILER)
-    message(STATUS "sphmbs: no policy cuda: it needs nvcc of CUDA 12 or later")
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(NOT "CUDA" IN_LIST languages)
+    message(STATUS "sphmbs: no policy cuda: it needs nvcc of CUDA 12 or later, and enable_language(CUDA)")
     return()
   endif()
-  string(REGEX REPLACE "[^0-9]" "" architecture "${SPHMBS_GPU_ARCH}")
-  if(NOT CMAKE_CUDA_ARCHITECTURES)
-    set(CMAKE_CUDA_ARCHITECTURES ${architecture} CACHE STRING "GPU architectures of nvcc")
-  endif()
-  enable_language(CUDA)
   add_library(sphmbs_cuda INTERFACE IMPORTED GLOBAL)
   add_library(sphmbs::cuda ALIAS sphmbs_cuda)
   target_link_libraries(sphmbs_cuda INTERFACE sphmbs::headers)
-  target_compile_features(sphmbs_cuda INTERFACE cuda_std_20)
-  # 1675: pragmas of GCC.
-  target_compile_options(sphmbs_cuda INTERFACE $<$<COMPILE_LANGUAGE:CUDA>:-O3
+  # By its flag: CMake 3.25 does not know what nvcc 13 can. 1675: pragmas of GCC.
+  target_compile_options(sphmbs_cuda INTERFACE $<$<COMPILE_LANGUAGE:CUDA>:-std=c++20 -O3
     --expt-relaxed-constexpr -diag-suppress=1675 -Xcompiler=-fno-math-errno>)
 endfunction()

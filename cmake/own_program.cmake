@@ -2,6 +2,11 @@
 # Everything that one of our own programs, libraries or tests gets on top of the sphmbs targets.
 # All of them get the same processor flags: Eigen's alignment is part of the binary interface.
 function(sphmbs_own_program target)
+  if(SPHMBS_OFFLOAD STREQUAL "cuda")
+    get_target_property(sources ${target} SOURCES)
+    set_source_files_properties(${sources} PROPERTIES LANGUAGE CUDA)
+    return()
+  endif()
   sphmbs_warnings(${target})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")

@@ -40,9 +40,14 @@ constexpr int vector_bytes() {
 
 }  // namespace detail
 
-/// Number of lanes of T in the widest pack that this build's instruction set serves well.
+/// Number of lanes of T in the widest pack that this build's instruction set serves well. nvcc does
+/// not know vector types.
 template <class T>
+#if defined(__CUDACC__)
+inline constexpr int native_lanes = 1;
+#else
 inline constexpr int native_lanes = detail::vector_bytes<T>() / static_cast<int>(sizeof(T));
+#endif
 
 /// Result of comparing two packs: one truth value a lane.
 template <class T, int W>

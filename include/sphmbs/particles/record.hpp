@@ -26,7 +26,7 @@ struct Record {
   N m;            // mass [kg]
   N shell;        // 1 for virtual particles, 0 for gas
   /// What rounding left of the position [m].
-  std::conditional_t<splits_positions<Scalar<N>>, Vec<Dim, N>, NoRest> rest = {};
+  std::conditional_t<splits_positions<Scalar<N>>, Vec<Dim, N>, NoRest> rest;
 };
 
 /// From particle a to particle b [m].

@@ -193,7 +193,8 @@ struct PairSides {
             N(s.c),
             N(s.h),
             N(s.m),
-            N(s.shell)};
+            N(s.shell),
+            {}};
   }
   template <class N>
   static SPHMBS_INLINE particles::Slopes<dim, N> wide(const particles::Slopes<dim, T>& s) {

@@ -109,7 +109,8 @@ struct WriteRecords {
         .c = c,
         .h = y.h,
         .m = advance.fields.m[i],
-        .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0)};
+        .shell = particles::is_virtual(advance.fields.set[i]) ? T(1) : T(0),
+        .rest = {}};
     particles::set_place(record, space.wrap(y.r));
     particles::store_record<dim, T>(records, i, record);
     if constexpr (Scheme::Wall::surfaces)

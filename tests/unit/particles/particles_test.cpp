@@ -96,7 +96,8 @@ TEST_CASE("a record read one by one or many at once is the record stored", "[par
                        .c = x + 22,
                        .h = x + 23,
                        .m = x + 24,
-                       .shell = x + 25};
+                       .shell = x + 25,
+                       .rest = {}};
       for (int k = 0; k < Dim; ++k) {
         s.r[k] = x + static_cast<T>(k);
         if constexpr (splits_positions<T>) s.rest[k] = x + static_cast<T>(30 + k);

@@ -66,7 +66,7 @@ sphmbs::geometry::Domain<2> strip() {
 boundary::Meeting<2, double> meeting() {
   boundary::Meeting<2, double> m{};
   m.gas = {
-      .r = {}, .v = {30, -4}, .rho = 1.2, .p = 1e5, .c = 340, .h = 0.125, .m = 0.012, .shell = 0};
+      .r = {}, .v = {30, -4}, .rho = 1.2, .p = 1e5, .c = 340, .h = 0.125, .m = 0.012, .shell = 0, .rest = {}};
   m.d = {0.05, -0.2};
   m.normal = {0, -1};
   m.depth = 0.15;  // the gas is 0.05 from the surface
