@@ -48,7 +48,9 @@ function(sphmbs_offload policy)
       set(link -Wl,-rpath,${runtime})
       set(needs "libomp and clang-tools of the compiler's version, and CUDA's ptxas for nvptx")
     else()
-      set(flags -fopenmp ${sphmbs_nvptx})
+      # Functions that GCC's simd loops call keep their arrays in a stack of its own, of 128 bytes
+      # unless told, and run over it in silence.
+      set(flags -fopenmp ${sphmbs_nvptx} -foffload-options=nvptx-none=-msoft-stack-reserve-local=512)
       set(needs "GCC's offload compiler (Debian: gcc-12-offload-nvptx)")
     endif()
   else()

@@ -73,6 +73,7 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
     return names;
   }
 
+  execution::BusTraffic bus() const { return gas_.bus(); }
   std::vector<Phase> phases() const { return gas_.phases(); }
 
   /// Conservation is the gas's, whose accounts have what the bodies do.

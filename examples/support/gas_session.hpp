@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sphmbs/execution/device_memory.hpp>
 #include <sphmbs/sphmbs.hpp>
 
 #include "support/backends.hpp"
@@ -66,6 +67,14 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
     const sph::Statistics& done = fluid_.statistics();
     state.step = static_cast<std::int64_t>(done.steps);
     state.pair_interactions = static_cast<std::int64_t>(done.pair_interactions);
+  }
+
+  /// What crossed the bus of the policy's device; nothing where loops run on the host.
+  execution::BusTraffic bus() const {
+    if constexpr (execution::on_host<Policy>)
+      return {};
+    else
+      return Policy::bus();
   }
 
   std::vector<std::string> write(const std::filesystem::path& folder, const std::string& title,

@@ -240,6 +240,12 @@ void Report::finish(const Summary& summary, const std::vector<std::string>& writ
                format_number(static_cast<double>(summary.pair_interactions)) + " interactions, " +
                    format_number(1e-6 * pair_interactions_per_second(summary)) + " million/s",
                memory);
+    if (summary.bus)
+      print_line(out, "bus",
+                 format_number(summary.bus->bytes_per_step, 3) + " bytes a step, " +
+                     format_number(summary.bus->bytes_per_particle_and_step, 2) +
+                     " a particle and step",
+                 format_number(summary.bus->loops_per_step, 3) + " loops a step");
     const Conservation& conservation = summary.conservation;
     print_line(out, "conserved",
                "mass " + format_number(conservation.mass, 2) + " | momentum " +

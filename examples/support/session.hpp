@@ -95,6 +95,7 @@ class Session {
     io::PvdCollection collection(file(list));
     written_ = {list, "history.csv"};
     if (!traced_.empty()) written_.push_back("trajectories.csv");
+    steps_sent_ -= sent();
     const Schedule schedule{settings_.until, settings_.cfl, step()};
     sphmbs::run(
         system_, integrator, schedule,
@@ -107,6 +108,7 @@ class Session {
         Every(settings_.until / fields,
               [&](System&) { timed([&] { write_fields(collection); }); }));
     wall_seconds_ = seconds_since(begin);
+    steps_sent_ += sent();
   }
 
   /// A number the run was made for.
@@ -157,11 +159,29 @@ class Session {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
+  /// Over the bus of a device: bytes, and loops that were started.
+  struct Sent {
+    double bytes = 0;
+    double loops = 0;
+    Sent& operator+=(const Sent& o) { return bytes += o.bytes, loops += o.loops, *this; }
+    Sent& operator-=(const Sent& o) { return bytes -= o.bytes, loops -= o.loops, *this; }
+    friend Sent operator-(Sent a, const Sent& b) { return a -= b; }
+  };
+  Sent sent() const {
+    if constexpr (requires { display_.bus(); }) {
+      const auto bus = display_.bus();
+      return {static_cast<double>(bus.bytes()), static_cast<double>(bus.launches)};
+    }
+    return {};
+  }
+
   template <class Output>
   void timed(Output&& output) {
     const Clock::time_point begin = Clock::now();
+    const Sent before = sent();
     output();
     output_seconds_ += seconds_since(begin);
+    steps_sent_ -= sent() - before;
   }
 
   // A fixed step, shortened so that trajectories meet their times.
@@ -237,6 +257,12 @@ class Session {
     s.peak_memory_bytes = peak_memory();
     s.results = results_;
     display_.summarise(s);
+    if (steps_sent_.loops > 0) {
+      const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
+      const double particles = static_cast<double>(s.particles.gas + s.particles.virtual_particles);
+      s.bus = BusCounts{steps_sent_.bytes / steps, steps_sent_.bytes / steps / particles,
+                        steps_sent_.loops / steps};
+    }
     return s;
   }
 
@@ -255,6 +281,7 @@ class Session {
   std::vector<std::string> written_;
   int frames_ = 0;
   double output_seconds_ = 0;
+  Sent steps_sent_;
   double wall_seconds_ = 0;
 };
 

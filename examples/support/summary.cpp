@@ -45,6 +45,10 @@ Json to_json(const Summary& summary) {
     json["particles"] = {{"gas", summary.particles.gas},
                          {"virtual", summary.particles.virtual_particles}};
   if (summary.structure) json["structure"] = to_json(*summary.structure);
+  if (summary.bus)
+    json["bus"] = {{"bytes_per_step", summary.bus->bytes_per_step},
+                   {"bytes_per_particle_and_step", summary.bus->bytes_per_particle_and_step},
+                   {"loops_per_step", summary.bus->loops_per_step}};
   json["steps"] = summary.steps;
   json["time_end"] = summary.time_end;
   json["wall_seconds"] = summary.wall_seconds;

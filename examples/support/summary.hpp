@@ -57,6 +57,13 @@ struct StructureCounts {
   double violation = 0.0;
 };
 
+/// What the steps of a run sent over the bus of a device, without output.
+struct BusCounts {
+  double bytes_per_step = 0.0;
+  double bytes_per_particle_and_step = 0.0;
+  double loops_per_step = 0.0;
+};
+
 /// What a run did, for people (Report::finish) and for programs (write_summary).
 struct Summary {
   std::string case_name{};
@@ -66,6 +73,8 @@ struct Summary {
   ParticleCounts particles{};
   /// Of a run with a structure. Without particles beside it, nothing is said of gas.
   std::optional<StructureCounts> structure{};
+  /// Of a run on a device.
+  std::optional<BusCounts> bus{};
   std::int64_t steps = 0;
   /// Physical time reached [s].
   double time_end = 0.0;

@@ -57,9 +57,14 @@ struct OpenACC : DeviceMemory<detail::AccMemory> {
   static void for_each(std::size_t n, const F& body) {
     if (n == 0) return;
     count_launch(sizeof(F));
-    const F f = body;
-#pragma acc parallel loop gang vector vector_length(128) firstprivate(f)
-    for (std::size_t i = 0; i < n; ++i) f(i);
+    // As bytes, which the loop reads where it needs them: a copy of its own, as by firstprivate,
+    // would fill its registers.
+    struct {
+      alignas(16) unsigned char bytes[sizeof(F)];
+    } raw;
+    __builtin_memcpy(raw.bytes, &body, sizeof(F));
+#pragma acc parallel loop gang vector vector_length(128) copyin(raw)
+    for (std::size_t i = 0; i < n; ++i) (*reinterpret_cast<const F*>(raw.bytes))(i);
   }
 
   static int concurrency() { return detail::AccMemory::on_host() ? 1 : 1 << 16; }

@@ -87,9 +87,11 @@ SPHMBS_INLINE Vicinity<Dim, Number<T, W>> load_vicinities(const T* stored,
 template <int Dim, class T>
 SPHMBS_INLINE void store_slopes(T* stored, std::size_t i, const Slopes<Dim, T>& s) {
   T* f = stored + i * slopes_size<Dim, T>;
+#pragma GCC unroll 3
   for (int k = 0; k < Dim; ++k) {
     f[k] = s.rho[k];
     f[Dim + k] = s.p[k];
+#pragma GCC unroll 3
     for (int j = 0; j < Dim; ++j) f[(2 + j) * Dim + k] = s.v[j][k];
   }
 }

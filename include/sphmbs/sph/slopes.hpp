@@ -100,10 +100,10 @@ struct EvaluateSlopes {
     Vec<dim, T> inverse[dim];
     const bool regular = invert(sum.moment, inverse);
     Vec<dim, T> slope[fields];
+#pragma GCC unroll 5
     for (int f = 0; f < fields; ++f) {
-      slope[f] = Vec<dim, T>::all(T(0));
-      if (!regular) continue;
-      for (int k = 0; k < dim; ++k) slope[f][k] = dot(inverse[k], sum.slope[f]);
+#pragma GCC unroll 3
+      for (int k = 0; k < dim; ++k) slope[f][k] = regular ? dot(inverse[k], sum.slope[f]) : T(0);
       if constexpr (Scheme::Reconstruction::limits_particles) {
         const T most = T(0.5) * math::sqrt(norm2(slope[f]) * sum.reach2);
         const T room = math::min(sum.high[f], -sum.low[f]);
@@ -111,6 +111,7 @@ struct EvaluateSlopes {
       }
     }
     particles::Slopes<dim, T> found{slope[0], slope[1], {}};
+#pragma GCC unroll 3
     for (int k = 0; k < dim; ++k) found.v[k] = slope[2 + k];
     particles::store_slopes<dim, T>(vicinities, i, found);
   }
@@ -157,8 +158,11 @@ struct EvaluateSlopes {
         return m[k][p] * m[l][q] - m[k][q] * m[l][p];
       };
       const T det = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
-      for (int k = 0; k < 3; ++k)
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; ++k) {
+#pragma GCC unroll 3
         for (int j = 0; j < 3; ++j) inverse[k][j] = minor(j, k) / det;
+      }
       return det > T(0.01) * full;
     }
   }

@@ -18,7 +18,9 @@ struct Limit {
   std::uint32_t id = 0;
 
   SPHMBS_INLINE void combine(const Limit& other) {
-    if (other.dt < dt || (other.dt == dt && other.id < id)) *this = other;
+    const bool sooner = other.dt < dt || (other.dt == dt && other.id < id);
+    dt = sooner ? other.dt : dt;
+    id = sooner ? other.id : id;
   }
 };
 

@@ -53,7 +53,9 @@ struct Largest {
   double h = 0;  // [m]
   std::uint32_t id = 0;
   SPHMBS_INLINE void combine(const Largest& o) {
-    if (o.h > h) *this = o;
+    const bool larger = o.h > h;
+    h = larger ? o.h : h;
+    id = larger ? o.id : id;
   }
 };
 
