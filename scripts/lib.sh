@@ -45,6 +45,11 @@ install_packages() {
   rm -f "$log"
 }
 
+# The package of GCC's compiler for GPUs.
+offload_compiler() {
+  echo "gcc-$(g++ -dumpversion | cut -d . -f 1)-offload-nvptx"
+}
+
 # configure PRESET: creates build/PRESET once; later the build itself notices changes.
 configure() {
   local dir=build/$1 source generator=()
