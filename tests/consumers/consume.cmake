@@ -13,7 +13,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 set(prefix_path ${PREFIX_PATH})
-if(KIND STREQUAL "find_package")
+if(KIND MATCHES "find_package")
   if(NOT INSTALLS)
     message("skipped: SPHMBS_INSTALL is OFF")
     return()

@@ -86,6 +86,8 @@ def main():
                 faults.append(f"{readable([name])[name]}: soft frame of {size} bytes")
     if modules and shutil.which("ptxas") and shutil.which("nvlink"):
         found = list(resources(modules, options.arch))
+        if len(found) < options.kernels:
+            faults.append(f"nvlink tells of {len(found)} kernels only")
         names = readable([name for name, _, _ in found])
         for name, registers, stack in sorted(found, key=lambda k: -k[1]):
             line = f"{registers:4} registers {stack:5} bytes of stack  {names[name]}"

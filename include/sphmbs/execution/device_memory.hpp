@@ -44,6 +44,7 @@ class DeviceMemory {
     if (kept != pool.idle.end()) {
       block = kept->second;
       pool.idle.erase(kept);
+      pool.waiting -= size;
     } else {
       block = Raw::allocate(size);
       if (block == nullptr) {
@@ -57,24 +58,32 @@ class DeviceMemory {
     return block;
   }
 
-  static void release(void* block) {
+  static void release(void* block) noexcept {
     Pool& pool = the_pool();
     const std::lock_guard lock(pool.mutex);
     const auto used = pool.size.find(block);
-    pool.idle.emplace(used->second, block);
+    const std::size_t size = used->second;
     pool.size.erase(used);
+    pool.waiting += size;
+    pool.idle.emplace(size, block);
+    // Runtimes need memory for themselves, for which they cannot ask here.
+    if (pool.waiting > (pool.held - pool.waiting) / 4 + least_waiting) free_idle(pool);
   }
 
   static void upload(void* there, const void* here, std::size_t bytes) {
     if (bytes == 0) return;
-    ++the_pool().bus.uploads;
-    the_pool().bus.uploaded += bytes;
+    count([&](BusTraffic& bus) {
+      ++bus.uploads;
+      bus.uploaded += bytes;
+    });
     Raw::to_device(there, here, bytes);
   }
   static void download(void* here, const void* there, std::size_t bytes) {
     if (bytes == 0) return;
-    ++the_pool().bus.downloads;
-    the_pool().bus.downloaded += bytes;
+    count([&](BusTraffic& bus) {
+      ++bus.downloads;
+      bus.downloaded += bytes;
+    });
     Raw::to_host(here, there, bytes);
   }
 
@@ -99,8 +108,10 @@ class DeviceMemory {
   }
 
   static void count_launch(std::size_t argument_bytes) {
-    ++the_pool().bus.launches;
-    the_pool().bus.arguments += argument_bytes;
+    count([&](BusTraffic& bus) {
+      ++bus.launches;
+      bus.arguments += argument_bytes;
+    });
   }
 
  private:
@@ -108,9 +119,18 @@ class DeviceMemory {
     std::mutex mutex;
     std::multimap<std::size_t, void*> idle;
     std::unordered_map<void*, std::size_t> size;  // of blocks in use
-    std::size_t held = 0;
+    std::size_t held = 0;                         // [bytes]
+    std::size_t waiting = 0;                      // of them in idle blocks [bytes]
     BusTraffic bus;
   };
+  static constexpr std::size_t least_waiting = std::size_t{64} << 20;
+
+  template <class Add>
+  static void count(const Add& add) {
+    Pool& pool = the_pool();
+    const std::lock_guard lock(pool.mutex);
+    add(pool.bus);
+  }
 
   // Never destroyed: fields may outlive static objects, and the runtime frees all at the end.
   static Pool& the_pool() {
@@ -124,6 +144,7 @@ class DeviceMemory {
       pool.held -= size;
     }
     pool.idle.clear();
+    pool.waiting = 0;
   }
 
   // Sizes in steps of an eighth of a power of two, so that lists that grow a little find a block.

@@ -19,23 +19,35 @@ namespace sphmbs::execution {
 namespace detail {
 
 struct TargetMemory {
-  static bool on_host() { return omp_get_num_devices() == 0; }
+  // Clang's runtime counts devices that it is told not to use, and a default device beyond the last
+  // one is the host.
+  static bool host_asked_for() { return environment_says("OMP_TARGET_OFFLOAD", "disabled"); }
+  static bool on_host() {
+    const int device = omp_get_default_device();
+    return host_asked_for() || device < 0 || device >= omp_get_num_devices();
+  }
   static void require() {
-    if (on_host() && !environment_says("OMP_TARGET_OFFLOAD", "disabled"))
+    if (on_host() && !host_asked_for())
       no_device("omp_target",
-                "OpenMP's runtime looks for an NVIDIA driver (libcuda) and for its own plugin; "
+                "OpenMP's runtime looks for an NVIDIA driver (libcuda), for its own plugin and for "
+                "device code that fits the GPU, and OMP_DEFAULT_DEVICE must be one of the devices; "
                 "OMP_TARGET_OFFLOAD=DISABLED runs the same loops on the threads of the host");
   }
   static int device() { return on_host() ? omp_get_initial_device() : omp_get_default_device(); }
   static void* allocate(std::size_t bytes) { return omp_target_alloc(bytes, device()); }
   static void release(void* block) { omp_target_free(block, device()); }
   static void to_device(void* there, const void* here, std::size_t bytes) {
-    omp_target_memcpy(there, const_cast<void*>(here), bytes, 0, 0, device(),
-                      omp_get_initial_device());
+    check(omp_target_memcpy(there, const_cast<void*>(here), bytes, 0, 0, device(),
+                            omp_get_initial_device()));
   }
   static void to_host(void* here, const void* there, std::size_t bytes) {
-    omp_target_memcpy(here, const_cast<void*>(there), bytes, 0, 0, omp_get_initial_device(),
-                      device());
+    check(omp_target_memcpy(here, const_cast<void*>(there), bytes, 0, 0, omp_get_initial_device(),
+                            device()));
+  }
+  static void check(int failure) {
+    if (failure != 0)
+      throw Error("execution policy omp_target: a copy over the bus failed with code " +
+                  std::to_string(failure));
   }
 };
 

@@ -15,9 +15,10 @@ namespace sphmbs::geometry {
 /// length 0 and a half length that no distance exceeds.
 template <int Dim, class T>
 struct Periodicity {
-  Vec<Dim, T> lower;   // of the box [m]
-  Vec<Dim, T> length;  // of the period, 0 if there is none [m]
-  Vec<Dim, T> half;    // half the period, or the largest number [m]
+  Vec<Dim, T> lower;        // of the box [m]
+  Vec<Dim, T> length;       // of the period, 0 if there is none [m]
+  Vec<Dim, T> half;         // half the period, or the largest number [m]
+  Vec<Dim, T> length_rest;  // what rounding to T left of the period [m]
 
   /// The separation to the nearest image, for separations shorter than 1.5 periods.
   template <class N>
@@ -71,6 +72,8 @@ struct Domain {
       const bool wraps = periodic[static_cast<std::size_t>(k)];
       p.lower[k] = static_cast<T>(box.lower[k]);
       p.length[k] = wraps ? static_cast<T>(box.length(k)) : T(0);
+      p.length_rest[k] =
+          wraps ? static_cast<T>(box.length(k) - static_cast<double>(p.length[k])) : T(0);
       p.half[k] = wraps ? static_cast<T>(box.length(k) / 2) : T(1e30);
     }
     return p;

@@ -29,14 +29,6 @@ struct Record {
   std::conditional_t<splits_positions<Scalar<N>>, Vec<Dim, N>, NoRest> rest;
 };
 
-/// From particle a to particle b [m].
-template <int Dim, class T, class N>
-SPHMBS_INLINE Vec<Dim, N> way(const Record<Dim, T>& a, const Record<Dim, N>& b) {
-  Vec<Dim, N> d = b.r - a.r;
-  if constexpr (splits_positions<T>) d += b.rest - a.rest;
-  return d;
-}
-
 /// Moves a record to a position.
 template <int Dim, class T>
 SPHMBS_INLINE void set_place(Record<Dim, T>& record, const Vec<Dim>& x) {

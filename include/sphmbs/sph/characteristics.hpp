@@ -6,6 +6,7 @@
 #include <sphmbs/particles/opening.hpp>
 #include <sphmbs/sph/gather.hpp>
 #include <sphmbs/sph/scheme.hpp>
+#include <sphmbs/sph/separation.hpp>
 
 namespace sphmbs::sph {
 
@@ -36,8 +37,7 @@ struct OpeningTerm {
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&,
                                 AroundOpening<dim, N>& sum) const {
-    Vec<dim, N> d = particles::way(a, b);
-    if constexpr (wraps) d = space.nearest(d);
+    const Vec<dim, N> d = separation<wraps>(space, a, b);
     const N R = math::sqrt(norm2(d)) / (N(T(0.5)) * (N(a.h) + b.h));
     // The particle itself, which fills up packs, is no neighbour.
     const N shape = math::select(R > N(T(1e-5)), Kernel::shape(R), N(T(0)));

@@ -3,6 +3,7 @@
 
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/sph/pair_sides.hpp>
+#include <sphmbs/sph/separation.hpp>
 
 namespace sphmbs::sph {
 
@@ -41,8 +42,7 @@ struct PairTerm {
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>& around_b,
                                 PairSums<dim, N>& sum) const {
-    Vec<dim, N> d = particles::way(a, b);
-    if constexpr (wraps) d = space.nearest(d);
+    const Vec<dim, N> d = separation<wraps>(space, a, b);
     const N h = N(T(0.5)) * (N(a.h) + b.h);  // eq. (24)
     // Two particles at one point have no line between them: a floor keeps them finite and apart.
     const N r = math::sqrt(math::max(norm2(d), N(T(1e-12)) * h * h));

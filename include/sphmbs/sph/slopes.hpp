@@ -5,6 +5,7 @@
 #include <sphmbs/particles/fields.hpp>
 #include <sphmbs/sph/gather.hpp>
 #include <sphmbs/sph/scheme.hpp>
+#include <sphmbs/sph/separation.hpp>
 
 namespace sphmbs::sph {
 
@@ -44,8 +45,7 @@ struct SlopeTerm {
   template <class N>
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&, SlopeSums<dim, N>& sum) const {
-    Vec<dim, N> d = particles::way(a, b);
-    if constexpr (wraps) d = space.nearest(d);
+    const Vec<dim, N> d = separation<wraps>(space, a, b);
     const N h = N(T(0.5)) * (N(a.h) + b.h);
     const N r2 = norm2(d);
     const N r = math::sqrt(math::max(r2, N(T(1e-12)) * h * h));

@@ -45,6 +45,7 @@ double error_of_float(double offset) {
   const auto found = test::rates_of<Policy, float>(gas, square.domain, square.cloud);
   double most = 0, size = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
+    REQUIRE(std::isfinite(test::length(found.v[i])));
     most = std::max(most, test::length(found.v[i] - exact.v[i]));
     size = std::max(size, test::length(exact.v[i]));
   }
@@ -60,6 +61,23 @@ TEMPLATE_LIST_TEST_CASE("forces in float are as good in a large domain as in a s
   // A float holds 1000 m to 6e-5 m, which is 6e-4 of a spacing.
   CHECK(error_of_float<TestType, 2>(1000) < 2 * near);
   CHECK(error_of_float<TestType, 3>(1000) < 2e-5);
+}
+
+TEMPLATE_LIST_TEST_CASE("forces in float are as good across a long period as inside", "[sph]",
+                        test::Policies) {
+  // A float holds neither 1000.1 m nor differences of that size.
+  sphmbs::geometry::Domain<1> domain{{{0.0}, {1000.1}}, {true}};
+  auto cloud = test::disordered_cloud<1>(10001, spacing, 3, {.place = 0.1, .speed = 3});
+  const test::Gas<1> gas{};
+  const auto exact = test::rates_of<sphmbs::execution::Serial>(gas, domain, cloud);
+  const auto found = test::rates_of<TestType, float>(gas, domain, cloud);
+  double most = 0, size = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    REQUIRE(std::isfinite(found.v[i][0]));
+    most = std::max(most, std::abs(found.v[i][0] - exact.v[i][0]));
+    size = std::max(size, std::abs(exact.v[i][0]));
+  }
+  CHECK(most < 1e-5 * size);
 }
 
 TEMPLATE_LIST_TEST_CASE("small steps add up in float", "[sph]", test::Policies) {

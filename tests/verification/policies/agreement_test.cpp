@@ -110,13 +110,16 @@ template <class Column>
 double difference(const Column& a, const Column& b) {
   double most = 0, size = 1e-300;
   for (std::size_t i = 0; i < b.size(); ++i) {
+    double apart = 0;
     if constexpr (std::is_same_v<typename Column::value_type, double>) {
-      most = std::max(most, std::abs(a[i] - b[i]));
+      apart = std::abs(a[i] - b[i]);
       size = std::max(size, std::abs(b[i]));
     } else {
-      most = std::max(most, test::length(a[i] - b[i]));
+      apart = test::length(a[i] - b[i]);
       size = std::max(size, test::length(b[i]));
     }
+    REQUIRE(std::isfinite(apart));
+    most = std::max(most, apart);
   }
   return most / size;
 }
