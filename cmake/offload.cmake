@@ -43,6 +43,8 @@ function(sphmbs_offload policy)
       set(flags -fopenmp -fopenmp-targets=${SPHMBS_OMP_DEVICE} -Wno-pass-failed)
       if(SPHMBS_OMP_DEVICE MATCHES "nvptx")
         _sphmbs_check_ptxas()
+        # Leaves out Clang's <complex> for devices, which contradicts that of GCC's library.
+        list(APPEND definitions _LIBCPP_COMPLEX)
         list(APPEND flags --offload-arch=${SPHMBS_GPU_ARCH} --libomptarget-nvptx-bc-path=${runtime})
       endif()
       set(link -Wl,-rpath,${runtime})
