@@ -35,13 +35,15 @@ function(sphmbs_offload policy)
     endif()
   elseif(policy STREQUAL "omp_target")
     set(loop "#pragma omp target teams distribute parallel for simd reduction(+:s) map(tofrom:s)")
-    set(definitions SPHMBS_OMP_TARGET)
+    set(definitions SPHMBS_OMP_TARGET=1)  # 0 where devices are not GPUs of NVIDIA
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
       execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-resource-dir
         OUTPUT_VARIABLE resources OUTPUT_STRIP_TRAILING_WHITESPACE)
       get_filename_component(runtime "${resources}/../.." ABSOLUTE)
       set(flags -fopenmp -fopenmp-targets=${SPHMBS_OMP_DEVICE} -Wno-pass-failed)
-      if(SPHMBS_OMP_DEVICE MATCHES "nvptx")
+      if(NOT SPHMBS_OMP_DEVICE MATCHES "nvptx")
+        set(definitions SPHMBS_OMP_TARGET=0)
+      else()
         _sphmbs_check_ptxas()
         # Leaves out Clang's <complex> for devices, which contradicts that of GCC's library.
         list(APPEND definitions _LIBCPP_COMPLEX)

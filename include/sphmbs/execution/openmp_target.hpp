@@ -12,6 +12,7 @@
 #include <sphmbs/execution/device.hpp>
 #include <sphmbs/execution/device_memory.hpp>
 #include <sphmbs/execution/execution_policy.hpp>
+#include <sphmbs/execution/nvidia_driver.hpp>
 #include <sphmbs/execution/openmp.hpp>
 
 namespace sphmbs::execution {
@@ -92,11 +93,14 @@ struct OpenMPTarget : DeviceMemory<detail::TargetMemory> {
     return detail::TargetMemory::on_host() ? omp_get_max_threads() : 1 << 16;
   }
 
-  /// OpenMP tells neither names nor sizes of devices.
+  /// OpenMP tells neither names nor sizes of devices, NVIDIA's driver does.
   /// @throws InvalidInput where there is none and OMP_TARGET_OFFLOAD is not DISABLED.
   static Device device() {
     detail::TargetMemory::require();
     if (detail::TargetMemory::on_host()) return stand_in("the host (OMP_TARGET_OFFLOAD=DISABLED)");
+#if SPHMBS_OMP_TARGET
+    if (auto gpu = detail::ask_nvidia_driver(omp_get_default_device())) return *gpu;
+#endif
     return {.name = "OpenMP device " + std::to_string(omp_get_default_device()) + " of " +
                     std::to_string(omp_get_num_devices())};
   }
