@@ -45,14 +45,11 @@ std::vector<double> on_host(const U* field, std::size_t n) {
 }
 
 void describe_device() {
-  std::printf("policy %s", std::string(Policy::name).c_str());
-  if constexpr (!execution::on_host<Policy>) {
-    const auto device = Policy::device();
-    std::printf(", %s", device.name.c_str());
-    if (device.memory > 0)
-      std::printf(", %.1f of %.1f GB free", 1e-9 * static_cast<double>(device.free),
-                  1e-9 * static_cast<double>(device.memory));
-  }
+  const execution::Device device = Policy::device();
+  std::printf("policy %s, %s", std::string(Policy::name).c_str(), device.name.c_str());
+  if (device.memory > 0)
+    std::printf(", %.1f of %.1f GB free", 1e-9 * static_cast<double>(device.free),
+                1e-9 * static_cast<double>(device.memory));
   std::printf("\n");
 }
 
