@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include <sphmbs/sph/slopes.hpp>
 
 namespace sphmbs::sph {
+
+namespace detail {
+
+template <class T>
+struct Clear {
+  T* to;
+  SPHMBS_INLINE void operator()(std::size_t i) const { to[i] = T(0); }
+};
+
+}  // namespace detail
 
 /// Slopes of gas particles and surfaces of virtual ones, for schemes that need them; see
 /// particles::load_vicinity.
@@ -14,8 +22,10 @@ class Vicinities {
  public:
   /// For n particles. Those that no loop writes, of virtual particles without a state, are zero.
   void resize(std::size_t n) {
-    if constexpr (Scheme::vicinity)
-      stored_ = Stored(std::vector<T>(n * particles::slopes_size<Scheme::dim, T>));
+    if constexpr (Scheme::vicinity) {
+      stored_.resize_discarding(n * particles::slopes_size<Scheme::dim, T>);
+      Policy::for_each(stored_.size(), detail::Clear<T>{stored_.data()});
+    }
   }
 
   /// Evaluates the slopes of a stage, for n particles.
