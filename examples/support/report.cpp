@@ -241,11 +241,12 @@ void Report::finish(const Summary& summary, const std::vector<std::string>& writ
                    format_number(1e-6 * pair_interactions_per_second(summary)) + " million/s",
                memory);
     if (summary.bus)
-      print_line(out, "bus",
-                 format_number(summary.bus->bytes_per_step, 3) + " bytes a step, " +
-                     format_number(summary.bus->bytes_per_particle_and_step, 2) +
-                     " a particle and step",
-                 format_number(summary.bus->loops_per_step, 3) + " loops a step");
+      print_line(
+          out, "bus",
+          format_number(summary.bus->bytes_per_step, 3) + " bytes a step, " +
+              format_number(summary.bus->bytes_per_particle_and_step, 2) + " a particle and step",
+          format_number(summary.bus->loops_per_step, 3) + " loops a step with " +
+              format_number(summary.bus->argument_bytes_per_step, 3) + " bytes of arguments");
     const Conservation& conservation = summary.conservation;
     print_line(out, "conserved",
                "mass " + format_number(conservation.mass, 2) + " | momentum " +

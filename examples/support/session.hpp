@@ -163,14 +163,21 @@ class Session {
   struct Sent {
     double bytes = 0;
     double loops = 0;
-    Sent& operator+=(const Sent& o) { return bytes += o.bytes, loops += o.loops, *this; }
-    Sent& operator-=(const Sent& o) { return bytes -= o.bytes, loops -= o.loops, *this; }
+    double arguments = 0;
+    Sent& operator+=(const Sent& o) {
+      bytes += o.bytes;
+      loops += o.loops;
+      arguments += o.arguments;
+      return *this;
+    }
+    Sent& operator-=(const Sent& o) { return *this += {-o.bytes, -o.loops, -o.arguments}; }
     friend Sent operator-(Sent a, const Sent& b) { return a -= b; }
   };
   Sent sent() const {
     if constexpr (requires { display_.bus(); }) {
       const auto bus = display_.bus();
-      return {static_cast<double>(bus.bytes()), static_cast<double>(bus.launches)};
+      return {static_cast<double>(bus.bytes()), static_cast<double>(bus.launches),
+              static_cast<double>(bus.arguments)};
     }
     return {};
   }
@@ -261,7 +268,7 @@ class Session {
       const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
       const double particles = static_cast<double>(s.particles.gas + s.particles.virtual_particles);
       s.bus = BusCounts{steps_sent_.bytes / steps, steps_sent_.bytes / steps / particles,
-                        steps_sent_.loops / steps};
+                        steps_sent_.loops / steps, steps_sent_.arguments / steps};
     }
     return s;
   }

@@ -48,7 +48,8 @@ Json to_json(const Summary& summary) {
   if (summary.bus)
     json["bus"] = {{"bytes_per_step", summary.bus->bytes_per_step},
                    {"bytes_per_particle_and_step", summary.bus->bytes_per_particle_and_step},
-                   {"loops_per_step", summary.bus->loops_per_step}};
+                   {"loops_per_step", summary.bus->loops_per_step},
+                   {"argument_bytes_per_step", summary.bus->argument_bytes_per_step}};
   json["steps"] = summary.steps;
   json["time_end"] = summary.time_end;
   json["wall_seconds"] = summary.wall_seconds;

@@ -62,6 +62,8 @@ struct BusCounts {
   double bytes_per_step = 0.0;
   double bytes_per_particle_and_step = 0.0;
   double loops_per_step = 0.0;
+  /// Of the loops: what their bodies hold, pointers and parameters.
+  double argument_bytes_per_step = 0.0;
 };
 
 /// What a run did, for people (Report::finish) and for programs (write_summary).
