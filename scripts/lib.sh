@@ -74,13 +74,13 @@ configure() {
   sed -n 's/^-- \(sphmbs \)/\1/p' "$dir/configure.log"
 }
 
-# build PRESET [TARGET]: quiet unless it fails.
+# build PRESET [TARGET...]: quiet unless it fails.
 build() {
   local dir=build/$1 target=()
-  [ $# -lt 2 ] || target=(--target "$2")
+  [ $# -lt 2 ] || target=(--target "${@:2}")
   [ -f "$dir/build.log" ] || echo "building in $dir, which takes a while the first time"
   if ! cmake --build "$dir" --parallel "$(nproc)" "${target[@]}" >"$dir/build.log" 2>&1; then
     cat "$dir/build.log" >&2
-    fail "building ${2:-$dir} failed"
+    fail "building ${*:2} in $dir failed"
   fi
 }
