@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/mbs/types.hpp>
 
@@ -17,10 +18,23 @@ namespace sphmbs::coupling {
 struct Repetition {
   struct Pair {
     mbs::VectorXd residual, result;  // F(x) - x, F(x)
+
+    template <Archive A>
+    void visit_state(A& archive) {
+      archive("residual", residual);
+      archive("result", result);
+    }
   };
 
   /// A step begins; changes seen in earlier ones stay known.
   void begin() { last = {}; }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("last", last);
+    archive("share", share);
+    archive("changes", changes);
+  }
 
   Pair last;                 // of this step; empty before its first
   double share = 1;          // of the last correction that was taken [-]

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/mbs/generalized_alpha.hpp>
 
 namespace sphmbs::mbs {
@@ -42,6 +43,13 @@ class MeanLoad {
   void accept(End end, double h) {
     last_ = std::move(end);
     last_h_ = h;
+  }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("filtered", last_.filtered);
+    archive("load", last_.load);
+    archive("step", last_h_);
   }
 
  private:

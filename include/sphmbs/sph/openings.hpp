@@ -120,6 +120,14 @@ class Openings {
     return all;
   }
 
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("next_id", next_id_);
+    archive("particle_count", particle_count_);
+    archive("way", way_);
+    archive("traffic", traffic_);
+  }
+
  private:
   using View = execution::Field<particles::OpeningView<dim, T>, Policy>;
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <sphmbs/core/archive.hpp>
+
 namespace sphmbs::sph {
 
 /// Parts of a step whose time is taken.
@@ -28,6 +30,16 @@ struct Statistics {
     pair_interactions += pairs;
     falls += refused;
     ++evaluations;
+  }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("steps", steps);
+    archive("evaluations", evaluations);
+    archive("rebuilds", rebuilds);
+    archive("pair_interactions", pair_interactions);
+    archive("falls", falls);
+    archive("seconds", seconds);
   }
 
   /// Adds the time until the returned object dies to a phase.
