@@ -56,22 +56,23 @@ class Every {
   void observe(System& system, bool last) {
     const double t = system.time();
     const bool now = t >= due() - 1e-9 * interval_;
-    if (now) count_ = static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1;
+    if (now) count_ = next_after(t);
     if (now || (last && t > acted_)) {
       action_(system);
       acted_ = t;
     }
   }
 
-  /// How often it has acted.
+  /// When it acted last; it may go on at another interval.
   template <Archive A>
   void visit_state(A& archive) {
-    archive("count", count_);
     archive("acted", acted_);
+    if constexpr (A::restores) count_ = acted_ < 0 ? 0 : next_after(acted_);
   }
 
  private:
   double due() const { return static_cast<double>(count_) * interval_; }
+  long next_after(double t) const { return static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1; }
 
   double interval_;
   Action action_;
