@@ -52,7 +52,7 @@ struct PointGridView {
 };
 
 /// A grid of points that stay, in the memory of a policy: finds the points near a particle, so that
-/// one pass over particles serves all of them. There is about one cell a point.
+/// one pass over particles serves all of them. A cell holds about one point.
 template <int Dim, execution::ExecutionPolicy Policy>
 class PointGrid {
  public:
@@ -95,7 +95,7 @@ class PointGrid {
         view_.count[k] = static_cast<int>(std::min(along, 1e9));
         view_.inverse_side[k] = 1 / side;
       }
-      if (cells <= 2 * points) return;
+      if (cells <= std::max(1000.0, 2 * points)) return;
     }
   }
 
