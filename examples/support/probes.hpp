@@ -22,15 +22,6 @@
 
 namespace sphmbs::examples {
 
-/// The gas of a system: the system itself, or the fluid that bodies are immersed in.
-template <class System>
-auto& gas_of(System& system) {
-  if constexpr (requires { system.fluid(); })
-    return system.fluid();
-  else
-    return system;
-}
-
 /// The probes of a run. All that are due at a time share the passes over the particles, and none
 /// changes a step: a sample belongs to the first step at or after its time.
 template <class Fluid>
@@ -227,5 +218,32 @@ class Probes {
   Fluid* fluid_;
   std::vector<Probe> probes_;
 };
+
+/// Stands in for the probes of a structure without gas: there are none.
+struct NoProbes {
+  bool empty() const { return true; }
+  void begin(const std::filesystem::path&, const std::string&, double,
+             const std::vector<ProbeProgress>& = {}) {}
+  bool due(bool = false) const { return false; }
+  void observe(Report&, bool = false) {}
+  std::vector<ProbeProgress> progress() const { return {}; }
+  std::vector<std::string> names() const { return {}; }
+  void summarise(Summary&) const {}
+};
+
+/// The probes of a gas, or of the gas that bodies are immersed in.
+/// @throws InvalidInput as Probes does, and E032 for probes where there is no gas.
+template <class System>
+auto probes_of(const std::vector<ProbeSpec>& specs, System& system) {
+  if constexpr (requires { system.fluid(); }) {
+    return probes_of(specs, system.fluid());
+  } else if constexpr (requires { system.particles(); }) {
+    return Probes<System>(specs, system);
+  } else {
+    if (!specs.empty())
+      throw InvalidInput("probe \"" + specs.front().name + "\": there is no gas to sample", "E032");
+    return NoProbes{};
+  }
+}
 
 }  // namespace sphmbs::examples

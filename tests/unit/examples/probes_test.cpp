@@ -272,6 +272,16 @@ TEST_CASE("probes refuse what they cannot sample", "[probes]") {
           "points = 1: must be between 2 and");
   refused({.name = "a", .kind = "plane", .from = {0, 0}, .to = {1, 0}}, "E032", "two axes");
   refused({.name = "a", .kind = "volume", .from = {0, 0}, .to = {1, 0}}, "E032", "2 axes");
+  struct Structure {
+  } structure;
+  CHECK(examples::probes_of({}, structure).empty());
+  CHECK_THROWS_WITH(examples::probes_of({{.name = "a", .at = {1, 1}}}, structure),
+                    "probe \"a\": there is no gas to sample");
+  struct Coupled {
+    Fluid& gas;
+    Fluid& fluid() { return gas; }
+  } coupled{fluid};
+  CHECK(!examples::probes_of({{.name = "a", .at = {1, 1}}}, coupled).empty());
   CHECK_THROWS_WITH(Probes({{.name = "a", .at = {1, 1}}, {.name = "a", .at = {0, 1}}}, fluid),
                     Catch::Contains("another probe has this name"));
 }
