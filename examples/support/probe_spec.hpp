@@ -6,16 +6,23 @@
 
 namespace sphmbs::examples {
 
-/// What a [[probes]] table of a parameter file asks for: where and how often a gas is sampled.
+/// A probe of the gas, as a user describes it.
 struct ProbeSpec {
-  std::string name;
-  std::string kind = "point";            // point, line, plane, volume
-  std::vector<double> at;                // point [m]
-  std::vector<double> from, to;          // ends of a line, corners of a plane (one extent is zero)
-                                         // or volume [m]
-  int points = 50;                       // samples along a line or the longer side of a plane
-  std::vector<std::string> fields{"p"};  // p rho e v speed c T mach
-  double interval = 0;                   // [s]; 0: as history.csv
+  /// Its results are probe_<name>.csv: letters, digits, - and _.
+  std::string name{};
+  /// point, line, plane or volume.
+  std::string kind = "point";
+  /// Place of a point [m].
+  std::vector<double> at{};
+  /// Ends of a line, opposite corners of a plane, one extent of which is zero in space, or of a
+  /// volume [m].
+  std::vector<double> from{}, to{};
+  /// Samples along a line, or along the longer side of a plane.
+  int points = 50;
+  /// Of p, rho, e, v, speed, c (speed of sound), T (temperature), mach.
+  std::vector<std::string> fields{"p"};
+  /// Time between samples [s]; 0: as history.csv.
+  double interval = 0;
 };
 
 }  // namespace sphmbs::examples
