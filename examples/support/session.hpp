@@ -141,7 +141,8 @@ class Session {
     history_.begin(file("history.csv"), comment);
     if (!traced_.empty()) traces_.begin(file("trajectories.csv"), comment);
 
-    write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
+    if (!from)
+      write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
     probes_.begin(settings_.output, comment, settings_.until / samples, probed);
 
     RunControl control(settings_);
