@@ -16,11 +16,12 @@
 /// Path data of SVG: commands M L H V C S Q T A Z with their numbers; small letters are relative.
 namespace sphmbs::io::detail {
 
-/// The curve of an arc command, which is told by its ends, radii, tilt and two choices (SVG 1.1,
+/// The curve of an arc command, which is told by its ends, radii, tilt and two choices: the
+/// longer of two arcs, and that on which the angle rises (SVG 1.1,
 /// appendix F.6). Radii that are too short grow until they reach; an arc that cannot be told from
 /// its chord has no turn.
 inline EllipseArc ellipse_arc(const Vec<2>& from, double rx, double ry, double tilt, bool large,
-                              bool clockwise, const Vec<2>& to) {
+                              bool rising, const Vec<2>& to) {
   const double c = std::cos(tilt), s = std::sin(tilt);
   const Vec<2> half = 0.5 * (from - to);
   const double chord = std::sqrt(norm2(half));
@@ -38,15 +39,15 @@ inline EllipseArc ellipse_arc(const Vec<2>& from, double rx, double ry, double t
     y /= reach;
   }
   const double square = x * x + y * y;
-  const double off = (large == clockwise ? -1 : 1) * std::sqrt(std::max(0.0, 1 / square - 1));
+  const double off = (large == rising ? -1 : 1) * std::sqrt(std::max(0.0, 1 / square - 1));
   const double u = off * y, v = -off * x;  // the centre, in units of the radii
   arc.first = {c * rx, s * rx};
   arc.second = {-s * ry, c * ry};
   arc.centre = 0.5 * (from + to) + u * arc.first + v * arc.second;
   arc.begin = std::atan2(y - v, x - u);
   arc.turn = std::atan2(-y - v, -x - u) - arc.begin;
-  if (clockwise && arc.turn < 0) arc.turn += 2 * math::pi;
-  if (!clockwise && arc.turn > 0) arc.turn -= 2 * math::pi;
+  if (rising && arc.turn < 0) arc.turn += 2 * math::pi;
+  if (!rising && arc.turn > 0) arc.turn -= 2 * math::pi;
   return arc;
 }
 
@@ -145,9 +146,9 @@ class PathData {
     }
     if (command == 'A') {
       const double rx = length(), ry = length(), tilt = number() * math::pi / 180;
-      const bool large = flag(), clockwise = flag();
+      const bool large = flag(), rising = flag();
       here_ = point();
-      const EllipseArc arc = ellipse_arc(from, rx, ry, tilt, large, clockwise, here_);
+      const EllipseArc arc = ellipse_arc(from, rx, ry, tilt, large, rising, here_);
       if (arc.turn == 0)
         sink_.line(here_);
       else
