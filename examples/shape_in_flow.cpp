@@ -104,7 +104,8 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
   const auto seen = geometry::inspect(facets);
   session.note("shape", flow.shape + " at " + examples::format_exact(flow.angle) + " degrees, " +
                             std::to_string(seen.facets) + " facets around " +
-                            examples::format_number(seen.volume) + (dim == 2 ? " m^2" : " m^3"));
+                            examples::format_number(std::abs(seen.volume)) +
+                            (dim == 2 ? " m^2" : " m^3"));
   for (const auto& advice : geometry::advise(seen, stretch))
     session.note("warning", std::string(advice.id) + " " + advice.text);
   session.record("drag_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[0]; });
