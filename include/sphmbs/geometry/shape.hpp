@@ -17,6 +17,12 @@ concept Shape = requires(const S shape, Vec<S::dim> x) {
   { shape.distance(x) } -> std::same_as<double>;
 };
 
+/// A shape that gives the slope of its distance, a unit vector, also where its distance has a kink.
+template <class S>
+concept KnowsNormal = Shape<S> && requires(const S shape, Vec<S::dim> x) {
+  { shape.normal(x) } -> std::same_as<Vec<S::dim>>;
+};
+
 /// Points in a or in b.
 template <Shape A, Shape B>
 struct Union {
@@ -41,6 +47,7 @@ struct Outside {
   static constexpr int dim = A::dim;
   A a;
   double distance(Vec<dim> x) const { return -a.distance(x); }
+  Vec<dim> normal(Vec<dim> x) const requires KnowsNormal<A> { return -1.0 * a.normal(x); }
 };
 
 template <Shape A>

@@ -89,7 +89,8 @@ struct Cloud {
   /// The same for virtual particles of a solid, whose surface gas is to meet truly: the solid's
   /// signed distance gives each particle its depth below the surface and the surface's normal.
   /// @param solid  any geometry::Shape whose distance is exact near the surface; for walls around
-  ///               gas geometry::outside(shape)
+  ///               gas geometry::outside(shape). Normals that it knows are taken from it, others
+  ///               are the slope of its distance
   /// @throws InvalidInput also for a point outside the solid by more than half a spacing, or one
   ///         that the distance gives no direction at.
   template <class Solid>
@@ -103,6 +104,10 @@ struct Cloud {
     const std::size_t first = size() - points.size();
     for (std::size_t i = first; i < size(); ++i) {
       depth[i] = -solid.distance(r[i]);
+      if constexpr (requires { solid.normal(r[i]); }) {
+        normal[i] = solid.normal(r[i]);
+        continue;
+      }
       const double step = 1e-4 * resolution.spacing;
       for (int k = 0; k < Dim; ++k) {
         Vec<Dim> up = r[i], down = r[i];
