@@ -26,8 +26,7 @@ struct StillGas {
 };
 
 inline void add_gamma(Parameters& parameters, double& gamma) {
-  parameters.add_number("gas.gamma", gamma, {.above = 1.0, .at_most = 100.0}, "",
-                        "ratio of specific heats");
+  parameters.add_number("gas.gamma", gamma, {.above = 1.0}, "", "ratio of specific heats");
 }
 
 /// Adds gas.density, gas.pressure and gas.gamma.

@@ -143,14 +143,14 @@ class Reader {
     // Plane gas has no plane but its own.
     const std::size_t of_plane = dim_ == 3 ? 2 : dim_;
     if (spec_.kind == "line" && extents == 0) {
-      refuse(*find("to"), "to", "must be another place than from");
+      refuse(*find("to"), "to", "must be another place than \"from\"");
     } else if (spec_.kind == "plane" && (dim_ == 1 || extents != of_plane)) {
       refuse(*find("to"), "to",
              dim_ == 1   ? "must not be: a gas of one dimension has no planes"
-             : dim_ == 2 ? "must differ from from in both coordinates"
-                         : "must differ from from in two coordinates and share the third");
+             : dim_ == 2 ? "must differ from \"from\" in both coordinates"
+                         : "must differ from \"from\" in two coordinates and share the third");
     } else if (spec_.kind == "volume" && extents != dim_) {
-      refuse(*find("to"), "to", "must differ from from in every coordinate");
+      refuse(*find("to"), "to", "must differ from \"from\" in every coordinate");
     }
   }
 

@@ -281,9 +281,9 @@ TEST_CASE("every bad line of a file gives one line with its place") {
       {probe + "to = [1, 2]",
        "4:6: error E026 probes[1].to = [1, 2]: must be left out: a point has at"},
       {"[[probes]]\nname = \"a\"\nkind = \"line\"\nfrom = [1, 1]\nto = [1, 1]",
-       "5:6: error E026 probes[1].to = [1, 1]: must be another place than from"},
+       "5:6: error E026 probes[1].to = [1, 1]: must be another place than \"from\""},
       {"[[probes]]\nname = \"a\"\nkind = \"plane\"\nfrom = [1, 1]\nto = [1, 2]",
-       "5:6: error E026 probes[1].to = [1, 2]: must differ from from in both coordinates"},
+       "5:6: error E026 probes[1].to = [1, 2]: must differ from \"from\" in both coordinates"},
   };
   for (const Case& bad : cases) {
     CAPTURE(bad.text);

@@ -104,7 +104,7 @@ TEST_CASE("a device that is not there is an error with a hint", "[backends]") {
     }
     CHECK(ended.code == 2);
     CHECK_THAT(ended.err,
-               Catch::Contains("error: execution policy " + backend + ": no device was found"));
+               Catch::Contains("error E100 execution policy " + backend + ": no device was found"));
     CHECK(scratch.found().empty());
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bad input ends every program with exit code 2 and one line that names the option, its value and
-// what is allowed, before anything is written.
+// Bad input ends every program with exit code 2 and a line that says where it was given, the
+// parameter, its value and what is allowed, before anything is written.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -47,7 +47,7 @@ std::vector<Row> rows(bool gas) {
   std::vector<Row> all = {
       {{"--treads", "2"}, {"--treads", "did you mean --threads?"}},
       {{"--nothing-like-it", "2"}, {"--nothing-like-it", "--help"}},
-      {{"0.5"}, {"0.5", "is not an option"}},
+      {{"0.5"}, {"0.5: error E001 cannot read"}},
       {{variable, "0.2", "--step", "1e-3"}, {"--step 1e-3", "excludes " + variable}},
       {{"--backend", "cuda"}, {"--backend cuda", "openmp", "serial"}},
       {{"--backend", "serial", "--threads", "2"}, {"--threads 2", "serial"}},
@@ -66,7 +66,7 @@ std::vector<Row> rows(bool gas) {
   for (const std::string& option : numbers) {
     all.push_back({{option}, {option, "needs a value", "must be"}});
     for (const char* value : {"abc", "1x", "nan", "inf", "-inf", "0", "-1", "1e400", "-1e400"})
-      all.push_back({{option, value}, {option + " " + value + ":", "must be", "number"}});
+      all.push_back({{option, value}, {option + " " + value + ":", "must be", " number"}});
   }
   for (const char* option : {"--backend", "--output"})
     all.push_back({{option}, {option, "needs a value", "must be"}});
@@ -75,7 +75,8 @@ std::vector<Row> rows(bool gas) {
   return all;
 }
 
-/// One line on standard error with all that is to be said, and nothing else anywhere.
+/// One line on standard error with all that is to be said, how many there are, and nothing else
+/// anywhere.
 void check_refused(const test::Scratch& scratch, const Program& program, const Words& words,
                    const Words& said, const Words& on_disk = {}) {
   std::string typed = program.name;
@@ -85,8 +86,9 @@ void check_refused(const test::Scratch& scratch, const Program& program, const W
   CAPTURE(ended.err);
   CHECK(ended.code == 2);
   CHECK(ended.out.empty());
-  CHECK(test::lines_of(ended.err).size() == 1);
-  CHECK_THAT(ended.err, Catch::StartsWith("error: ") && Catch::EndsWith("\n"));
+  CHECK(test::lines_of(ended.err).size() == 2);
+  CHECK_THAT(ended.err,
+             Catch::Contains(": error E0") && Catch::EndsWith("\n1 error; nothing was written\n"));
   for (const std::string& part : said) CHECK_THAT(ended.err, Catch::Contains(part));
   Words found = scratch.found();
   std::sort(found.begin(), found.end());
@@ -149,6 +151,44 @@ TEST_CASE("the programs refuse a folder of results they cannot or may not fill",
       check_refused(scratch, program, {"--output", folder},
                     {std::string("--output ") + folder, "must be"},
                     {"file", "full", "full/mine", "locked"});
+}
+
+TEST_CASE("a program says where in its parameter file every mistake is", "[programs]") {
+  const test::Scratch scratch;
+  std::ofstream(scratch.work() / "case.toml") << "[run]\nspacing = -1\ncfll = 0.3\n\n[pipe]\n"
+                                                 "size = [100, 50, 3]\n";
+  const auto ended = test::start(scratch, programs[0].path, {"case.toml", "--untl", "3"});
+  CHECK(ended.code == 2);
+  CHECK(ended.out.empty());
+  const Words lines = test::lines_of(ended.err);
+  REQUIRE(lines.size() == 5);
+  CHECK_THAT(lines[0], Catch::StartsWith("case.toml:2:11: error E022 run.spacing = -1: must be"));
+  CHECK(lines[1] == "case.toml:3:1: error E021 run.cfll: unknown key; did you mean \"run.cfl\"?");
+  CHECK_THAT(lines[2], Catch::StartsWith("case.toml:6:8: error E024 pipe.size = [100, 50, 3]:"));
+  CHECK_THAT(lines[3], Catch::StartsWith("command line: error E010 --untl: is not an option"));
+  CHECK(lines[4] == "4 errors; nothing was written");
+  CHECK(scratch.found() == Words{"case.toml"});
+
+  // What only the case can judge.
+  std::ofstream(scratch.work() / "case.toml") << "[run]\nspacing = 0.3\n";
+  const auto refused = test::start(scratch, programs[0].path, {"case.toml"});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Catch::StartsWith("case.toml:2:11: error E023 run.spacing = 0.3: must"));
+  CHECK(scratch.found() == Words{"case.toml"});
+}
+
+TEST_CASE("what --dump-params shows is a parameter file of the same program", "[programs]") {
+  const test::Scratch scratch;
+  for (const Program& program : programs) {
+    CAPTURE(program.name);
+    const auto first = test::start(scratch, program.path, {"--dump-params", "--until", "0.125"});
+    REQUIRE(first.code == 0);
+    std::ofstream(scratch.work() / "dump.toml") << first.out;
+    const auto second = test::start(scratch, program.path, {"dump.toml", "--dump-params"});
+    CHECK(second.err.empty());
+    CHECK(second.out == first.out);
+    CHECK(scratch.found() == Words{"dump.toml"});
+  }
 }
 
 TEST_CASE("the programs answer --help and --version and write nothing", "[programs]") {
