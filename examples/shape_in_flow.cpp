@@ -4,11 +4,13 @@
 // openings; across it the body repeats itself.
 #include <sphmbs/geometry/advice.hpp>
 #include <sphmbs/geometry/faceted.hpp>
+#include <sphmbs/geometry/inspection.hpp>
 #include <sphmbs/io/path_text.hpp>
 #include <sphmbs/io/stl.hpp>
 #include <sphmbs/sphmbs.hpp>
 
 #include "support/backends.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
 #include "support/schemes.hpp"
@@ -17,41 +19,73 @@ using namespace sphmbs;
 
 constexpr int dim = SHAPE_DIM;
 
-/// All shapes are 1 m long and begin at x = 0. The stream's speed is 1 m/s.
+/// The stream's speed is 1 m/s.
 struct Flow {
-  std::string shape = dim == 2 ? "capsule" : "airship";
-  double angle = 10;  // of the stream, from below [deg]
+  std::string file = SHAPE_DATA;
+  std::string unit = dim == 2 ? "cm" : "mm";  // of the file
+  double angle = 10;                          // of the stream, from below [deg]
   double mach = 0.3;
   double upstream = dim == 2 ? 2 : 0.75;    // from the inlet to the shape [m]
   double downstream = dim == 2 ? 3 : 1.25;  // from the shape to the outlet [m]
   double width = dim == 2 ? 6 : 1;          // from one shape to the next [m]
+
+  void add(examples::Parameters& parameters) {
+    parameters.add_path(
+        "shape.file", file,
+        dim == 2 ? "rows of coordinates, or path data of an SVG file" : "triangles, STL",
+        "--shape");
+    parameters.add_choice("shape.unit", unit, {"m", "cm", "mm", "inch"}, "length of 1 in the file");
+    parameters.add_number("stream.angle", angle, {.at_least = -90.0, .at_most = 90.0}, "deg",
+                          "of the stream, from below", "--angle");
+    parameters.add_number("stream.mach", mach, {.at_least = 0.05, .at_most = 0.7}, "",
+                          "speed by that of sound", "--mach");
+    parameters.add_number("stream.upstream", upstream, {.above = 0.0}, "m",
+                          "from the inlet to the shape");
+    parameters.add_number("stream.downstream", downstream, {.above = 0.0}, "m",
+                          "from the shape to the outlet");
+    parameters.add_number("stream.width", width, {.above = 0.0}, "m", "from one shape to the next",
+                          "--width");
+  }
 };
 
-/// The facets of a shape, in metres.
-template <int d>
-geometry::Facets<d> read_shape(const std::string& name) {
-  const std::filesystem::path folder = SHAPE_DATA;
-  if constexpr (d == 2)
-    return io::read_path(folder / (name + ".txt"),
-                         {.unit = name == "capsule" ? io::centimetre : io::metre});
-  else
-    return io::read_stl(folder / (name + ".stl"), io::millimetre);
+double length_of(const std::string& unit) {
+  return unit == "cm"     ? io::centimetre
+         : unit == "mm"   ? io::millimetre
+         : unit == "inch" ? io::inch
+                          : io::metre;
 }
 
-/// A point of a shape that turns against a stream from below, about its middle.
-Vec<dim> turned(Vec<dim> x, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle), along = x[0] - 0.5, across = x[1];
-  x[0] = 0.5 + c * along + s * across;
+/// The facets of a shape, in metres, from x = 0 on.
+geometry::Facets<dim> read_shape(const Flow& flow) {
+  const geometry::Facets<dim> facets = [&] {
+    if constexpr (dim == 2)
+      return io::read_path(flow.file, {.unit = length_of(flow.unit)});
+    else
+      return io::read_stl(flow.file, length_of(flow.unit));
+  }();
+  const double begin = geometry::inspect(facets).box.lower[0];
+  return geometry::mapped(facets, [&](Vec<dim> x) {
+    x[0] -= begin;
+    return x;
+  });
+}
+
+/// A point of a shape that turns against a stream from below, about a place on the axis.
+Vec<dim> turned(Vec<dim> x, double angle, double axis) {
+  const double c = std::cos(angle), s = std::sin(angle), along = x[0] - axis, across = x[1];
+  x[0] = axis + c * along + s * across;
   x[1] = c * across - s * along;
   return x;
 }
 
 template <class Gas, class T, class Policy>
 void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy policy) {
-  const double dx = settings.spacing;
-  examples::require(dx <= 0.1 && std::abs(flow.width / dx - std::round(flow.width / dx)) < 1e-6,
-                    "--spacing", dx, "a whole fraction of the width, and at most 0.1 m");
-  const double length = flow.upstream + 1 + flow.downstream;
+  const geometry::Facets<dim> read = read_shape(flow);
+  const double dx = settings.spacing, chord = geometry::inspect(read).box.upper[0];
+  examples::require(dx <= chord / 10 && examples::is_whole(flow.width, dx), "--spacing", dx,
+                    "a whole fraction of the width, and at most a tenth of the shape's length, " +
+                        examples::length_text(chord));
+  const double length = flow.upstream + chord + flow.downstream;
   examples::require_memory(length * math::power<dim - 1>(flow.width) / math::power<dim>(dx), dx);
 
   // Where: a stretch of the stream between two openings, one support deep.
@@ -61,14 +95,13 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
     box.upper[0] = to;
     return box;
   };
-  const double inlet = -flow.upstream, outlet = 1 + flow.downstream, depth = 4 * dx;
+  const double inlet = -flow.upstream, outlet = chord + flow.downstream, depth = 4 * dx;
   const geometry::Box<dim> stretch = ends(inlet, outlet);
   geometry::Domain<dim> domain{.box = ends(inlet - depth, outlet + depth)};
   for (std::size_t k = 1; k < dim; ++k) domain.periodic[k] = true;
   const geometry::Lattice<dim> lattice{.spacing = dx, .origin = Vec<dim>::all(dx / 2)};
-  const geometry::Facets<dim> facets =
-      geometry::mapped(read_shape<dim>(flow.shape),
-                       [&](const Vec<dim>& x) { return turned(x, flow.angle * math::pi / 180); });
+  const geometry::Facets<dim> facets = geometry::mapped(
+      read, [&](const Vec<dim>& x) { return turned(x, flow.angle * math::pi / 180, chord / 2); });
   const geometry::Faceted<dim> shape(facets);
 
   // What: an ideal gas whose speed of sound follows from the Mach number.
@@ -102,7 +135,7 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
                           examples::describe<Gas>() + "; Mach number " +
                           examples::format_exact(flow.mach));
   const auto seen = geometry::inspect(facets);
-  session.note("shape", flow.shape + " at " + examples::format_exact(flow.angle) + " degrees, " +
+  session.note("shape", flow.file + " at " + examples::format_exact(flow.angle) + " degrees, " +
                             std::to_string(seen.facets) + " facets around " +
                             examples::format_number(std::abs(seen.volume)) +
                             (dim == 2 ? " m^2" : " m^3"));
@@ -110,28 +143,24 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
     session.note("warning", std::string(advice.id) + " " + advice.text);
   session.record("drag_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[0]; });
   session.record("lift_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[1]; });
-  session.run(time::PredictorCorrector{}, std::max(200, static_cast<int>(20 * settings.until)), 4);
+  session.run(time::PredictorCorrector{}, *settings.samples, *settings.fields);
   session.finish();
 }
 
 int main(int argc, char** argv) {
-  examples::CommandLine command_line(
-      {.name = dim == 2 ? "shape_in_flow" : "shape_in_flow_3d",
-       .title = "a shape from a file in a stream",
-       .backends = examples::backends(),
-       .precisions = examples::precisions(),
-       .defaults = {.spacing = 0.05, .until = dim == 2 ? 2.0 : 0.5, .cfl = 0.4}});
+  examples::Parameters parameters({.name = dim == 2 ? "shape_in_flow" : "shape_in_flow_3d",
+                                   .title = "a shape from a file in a stream",
+                                   .backends = examples::backends(),
+                                   .precisions = examples::precisions(),
+                                   .defaults = {.spacing = 0.05,
+                                                .until = dim == 2 ? 2.0 : 0.5,
+                                                .cfl = 0.4,
+                                                .fields = 4,
+                                                .samples = 200},
+                                   .dim = dim});
   Flow flow;
-  const auto shapes = dim == 2 ? std::vector<std::string>{"capsule", "naca0012"}
-                               : std::vector<std::string>{"airship"};
-  command_line.add_choice("--shape", flow.shape, shapes, "the file below examples/data");
-  command_line.add_number("--angle", flow.angle, {.at_least = -90.0, .at_most = 90.0}, "deg",
-                          "of the stream, from below");
-  command_line.add_number("--mach", flow.mach, {.at_least = 0.05, .at_most = 0.7}, "",
-                          "speed by that of sound");
-  command_line.add_number("--width", flow.width, {.at_least = 0.5}, "m",
-                          "from one shape to the next");
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+  flow.add(parameters);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       shape_in_flow<sph::SmoothScheme<dim>, T>(s, flow, policy);
     });

@@ -168,6 +168,13 @@ void Parameters::add_flag(const std::string& key, bool& value, const std::string
   parts_->add(flag_parameter(about(key, meaning, option), value, true));
 }
 
+void Parameters::add_path(const std::string& key, std::string& value, const std::string& meaning,
+                          const std::string& option) {
+  parts_->add(text_parameter(
+      about(key, meaning, option), "FILE", "the path of a file", [&value] { return value; },
+      [&value](const std::string& path) { value = path; }));
+}
+
 void Parameters::add_vector(const std::string& key, std::span<double> value, const Bounds& bounds,
                             const std::string& unit, const std::string& meaning,
                             const std::string& option) {

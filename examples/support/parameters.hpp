@@ -45,6 +45,9 @@ class Parameters {
   /// Adds true or false; `option`, which takes no value, means true.
   void add_flag(const std::string& key, bool& value, const std::string& meaning,
                 const std::string& option = {});
+  /// Adds the path of a file.
+  void add_path(const std::string& key, std::string& value, const std::string& meaning,
+                const std::string& option = {});
   /// Adds a vector, whose components all keep to `bounds`.
   void add_vector(const std::string& key, std::span<double> value, const Bounds& bounds,
                   const std::string& unit, const std::string& meaning,
