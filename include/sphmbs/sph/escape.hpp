@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/execution/scan.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/particles/particles.hpp>
