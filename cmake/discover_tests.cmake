@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Run after a test program is built: writes CTEST_FILE, with one CTest test for each test case.
+# Run after a test program is built: writes CTEST_FILE, with one CTest test for each test case. Its
+# labels are the kind of test and its speed, and `fault` for the tag [fault].
 cmake_minimum_required(VERSION 3.22)
 
 set(timeout_quick 300)
@@ -20,15 +21,20 @@ function(list_cases spec result)
 endfunction()
 
 set(script "")
+list_cases("[fault]" faults)
 function(append_cases spec speed)
   list_cases("${spec}" cases)
   foreach(case IN LISTS cases)
     string(REPLACE "\\" "\\\\" pattern "${case}")
     string(REPLACE "," "\\," pattern "${pattern}")
     string(REPLACE "[" "\\[" pattern "${pattern}")
+    set(labels "${KIND};${speed}")
+    if(case IN_LIST faults)
+      list(APPEND labels fault)
+    endif()
     string(APPEND script
       "add_test([==[${NAME}: ${case}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
-      "set_tests_properties([==[${NAME}: ${case}]==] PROPERTIES LABELS \"${KIND};${speed}\" "
+      "set_tests_properties([==[${NAME}: ${case}]==] PROPERTIES LABELS \"${labels}\" "
       "TIMEOUT ${timeout_${speed}} ENVIRONMENT \"${ENVIRONMENT}\")\n")
   endforeach()
   set(script "${script}" PARENT_SCOPE)

@@ -3,6 +3,7 @@
 
 /// Umbrella of the coupling room: gas and bodies together, beside sphmbs.hpp and mbs.hpp.
 #include <sphmbs/coupling/immersed.hpp>
+#include <sphmbs/coupling/leaks.hpp>
 #include <sphmbs/coupling/riding.hpp>
 #include <sphmbs/coupling/staggered.hpp>
 #include <sphmbs/coupling/strong.hpp>

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/expects.hpp>
+#include <sphmbs/sph/pace.hpp>
 #include <sphmbs/sph/survey.hpp>
 #include <sphmbs/time/integrator.hpp>
 
@@ -19,12 +23,16 @@ struct Schedule {
   double until;                     // end time [s]
   double cfl = 0.4;                 // share of the stability limits, where `step` is not given [-]
   std::optional<double> step = {};  // fixed step [s]
+  /// Steps below this, 20 in a row, end the run; where it is not given, a millionth of the first
+  /// step [s].
+  std::optional<double> floor = {};
 
   /// @throws InvalidInput for numbers that are not positive and finite, or a cfl above 1.
   void check() const {
     expects(std::isfinite(until) && until > 0, "until", until, "positive [s]");
     expects(cfl > 0 && cfl <= 1, "cfl", cfl, "above 0 and at most 1");
     if (step) expects(std::isfinite(*step) && *step > 0, "step", *step, "positive [s]");
+    if (floor) expects(std::isfinite(*floor) && *floor >= 0, "floor", *floor, "0 or positive [s]");
   }
 };
 
@@ -72,7 +80,9 @@ class Every {
 
  private:
   double due() const { return static_cast<double>(count_) * interval_; }
-  long next_after(double t) const { return static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1; }
+  long next_after(double t) const {
+    return static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1;
+  }
 
   double interval_;
   Action action_;
@@ -120,12 +130,70 @@ int limited_steps([[maybe_unused]] const Integrator& integrator) {
     return 1;
 }
 
+/// A system whose step can be undone until it is committed.
+template <class System>
+concept Undoable = requires(System system) {
+  system.undo();
+};
+
+namespace detail {
+
+/// @throws NumericalFailure for steps too short to lead anywhere, with what limits them.
+template <class System>
+[[noreturn]] void collapse(System& system, const sph::StepLimit& limit, const std::string& what,
+                           const char* advice) {
+  std::ostringstream text;
+  text << what << " at t = " << system.time() << " s (dt = " << limit.dt << " s), limited by "
+       << limit.reason;
+  std::vector<std::uint32_t> culprits;
+  if constexpr (requires { system.fluid().describe(limit.id); })
+    text << "\n  " << system.fluid().describe(limit.id);
+  else if constexpr (requires { system.describe(limit.id); })
+    text << "\n  " << system.describe(limit.id);
+  if constexpr (requires { system.limited_by(); })
+    text << "\n  " << system.limited_by();
+  else
+    culprits.push_back(limit.id);
+  text << advice;
+  throw NumericalFailure(text.str(), "E310", culprits);
+}
+
+/// A fixed step of this length, in equal parts where a try of all of it failed or it is beyond what
+/// the stability limits allow at a cfl of 1.
+template <class System>
+sph::StepLimit fixed_step(System& system, double length, int steps, double longest) {
+  sph::StepLimit limit{length, "fixed", 0};
+  sph::StepLimit stable{longest, "a step that failed", 0};
+  if constexpr (requires { system.survey(); }) {
+    sph::StepLimit bare = sph::step_limit(system.survey(), 1);
+    bare.dt *= steps;
+    if (!(bare.dt >= stable.dt)) stable = bare;
+  }
+  if (length <= stable.dt) return limit;
+  const double parts = std::ceil(length / stable.dt - 1e-9);
+  if (!(parts <= sph::Pace::most_parts))
+    collapse(system, stable,
+             "a fixed step is " + std::to_string(length / stable.dt) +
+                 " times as long as the longest that is stable,",
+             "\n  likely: the step was chosen for a coarser gas, or slower sound\n  try: a smaller "
+             "step (--step), or --cfl instead");
+  stable.dt = length / parts;
+  return stable;
+}
+
+}  // namespace detail
+
 /// Steps a system until the end of its schedule. Observers see it at the beginning of a step, when
 /// state, rates and forces belong to the same time, and once more at the end. Steps that follow
 /// from stability or accuracy are shortened to meet exact observers; fixed steps are not.
+///
+/// A step of a system that can be undone, and that fails, is tried again half as long, up to 8
+/// times. A fixed step then goes on in such parts to its end, and so does one that is longer than
+/// what is stable at a cfl of 1, in up to 256; observers do not see the ends of parts.
 /// @param report  called as report(system, StepLimit) before every step is taken
 /// @return whether the end was reached: false where BetweenSteps ended the run before
-/// @throws InvalidInput for a bad schedule; NumericalFailure from the system.
+/// @throws InvalidInput for a bad schedule; NumericalFailure from the system, and where steps
+///         collapse.
 template <class System, class Integrator, class Report, class... Observers>
 bool run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
          Observers&&... observers) {
@@ -141,25 +209,62 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
       return true;
   };
   const double close = 1e-12 * schedule.until;
-  while (system.time() < schedule.until - close) {
-    if (!(may_go_on(observers) && ...)) return false;
-    integrator.step(system, [&] {
-      observe(false);
-      const double left = schedule.until - system.time();
-      sph::StepLimit limit = schedule.step ? sph::StepLimit{*schedule.step, "fixed", 0}
-                                           : step_limit_of(system, schedule.cfl);
-      if (!schedule.step) limit.dt *= limited_steps(integrator);
+  sph::Pace pace(schedule.floor);
+  double due = system.time();   // end of the fixed step [s]
+  bool whole = true;            // nothing of it is done yet
+  std::optional<double> tried;  // length [s]
+  const auto choose_step = [&] {
+    const int steps = limited_steps(integrator);
+    const double now = system.time();
+    if (whole && !pace.retrying()) observe(false);
+    const double left = schedule.until - now;
+    sph::StepLimit limit{};
+    if (schedule.step) {
+      const double length = whole ? std::min(*schedule.step, left) : due - now;
+      if (whole) due = now + length;
+      limit = detail::fixed_step(system, length, steps, pace.longest());
+    } else {
+      limit = step_limit_of(system, schedule.cfl);
+      limit.dt = std::min(limit.dt * steps, pace.longest());
+    }
+    if (pace.collapsed(limit.dt))
+      detail::collapse(
+          system, limit, "steps have become too short",
+          "\n  likely: something small, stiff or fast has come about: two particles at "
+          "one place, a shock in a corner, a stiff part\n  try: look at what is named; "
+          "a finer or smoother initial state; a softer part, or a larger accuracy");
+    if (!schedule.step) {
       double wait = left;
-      if (!schedule.step) ((wait = std::min(wait, observers.barrier() - system.time())), ...);
+      ((wait = std::min(wait, observers.barrier() - now)), ...);
       // Whole steps of equal length up to the next observation, instead of a short last one.
-      const double whole = wait / std::max(1.0, std::ceil(wait / limit.dt - 1e-9));
-      if (schedule.step)
-        limit.dt = std::min(limit.dt, left);
-      else
-        limit.dt = whole;
-      report(system, limit);
-      return limit.dt;
-    });
+      limit.dt = wait / std::max(1.0, std::ceil(wait / limit.dt - 1e-9));
+    }
+    if (!pace.retrying()) report(system, limit);
+    tried = limit.dt;
+    return limit.dt;
+  };
+  while (system.time() < schedule.until - close) {
+    if (whole && !pace.retrying() && !(may_go_on(observers) && ...)) return false;
+    const double begin = system.time();
+    tried.reset();
+    if constexpr (Undoable<System>) {
+      try {
+        integrator.step(system, choose_step);
+      } catch (const BeyondModel&) {
+        throw;
+      } catch (const NumericalFailure& failure) {
+        // Of the state itself, or of what a step has led to.
+        if (!tried || system.time() != begin) throw;
+        if (pace.exhausted()) throw sph::after_retries(failure);
+        system.undo();
+        pace.failed(*tried);
+        continue;
+      }
+    } else {
+      integrator.step(system, choose_step);
+    }
+    whole = !Undoable<System> || !schedule.step || system.time() >= due - close;
+    pace.went(whole);
   }
   if constexpr (time::ExplicitSystem<System>) {
     system.stage(0, 0);

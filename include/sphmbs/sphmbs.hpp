@@ -37,6 +37,7 @@
 #include <sphmbs/riemann/hllc.hpp>
 #include <sphmbs/riemann/limited_acoustic.hpp>
 #include <sphmbs/run.hpp>
+#include <sphmbs/sph/balance.hpp>
 #include <sphmbs/sph/fluid.hpp>
 #include <sphmbs/sph/presets.hpp>
 #include <sphmbs/sph/scheme.hpp>

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace sphmbs {
 
@@ -26,8 +29,17 @@ struct InvalidInput : Error {
 /// The computation cannot go on: a state is not finite or not physical, or an iteration does not
 /// converge. Programs end with exit code 3.
 struct NumericalFailure : Error {
-  explicit NumericalFailure(const std::string& message, std::string_view message_id = "E300")
-      : Error(message, message_id) {}
+  explicit NumericalFailure(const std::string& message, std::string_view message_id = "E300",
+                            std::vector<std::uint32_t> culprits = {})
+      : Error(message, message_id), particles(std::move(culprits)) {}
+
+  std::vector<std::uint32_t> particles;  // ids of those to look at; empty where it is none of them
+};
+
+/// What was computed is sound, but leaves what the model covers: bodies touch, a slider leaves its
+/// rail, gas escapes. A shorter step does not help.
+struct BeyondModel : NumericalFailure {
+  using NumericalFailure::NumericalFailure;
 };
 
 /// A checkpoint is damaged, or of another program, precision or case. Programs end with exit code

@@ -94,8 +94,23 @@ class Immersed {
     if constexpr (A::restores) depart(state().q, state().v, state().vdot);
   }
 
+  /// Back to the beginning of the step, as long as the gas has not been moved.
+  void undo() {
+    fluid_.undo();
+    bodies_.recall(before_.bodies);
+    mean_load_ = before_.mean_load;
+    exchanged_ = before_.exchanged;
+    repetition_ = {};
+  }
+
   /// @name For coupling schemes
   /// @{
+  /// A step begins, which can be undone.
+  /// @throws NumericalFailure for a state of the bodies that is not finite.
+  void begin() {
+    bodies_.require_finite();
+    before_ = {bodies_.memory(), mean_load_, exchanged_};
+  }
   /// Sends the wetted particles on their way from such coordinates, rates and accelerations.
   void depart(const mbs::VectorXd& q, const mbs::VectorXd& v, const mbs::VectorXd& a) {
     surface_.depart(bodies_.state().t, q, v, a);
@@ -121,7 +136,7 @@ class Immersed {
     exchanged_.work_on_bodies += mean.dot(way);
   }
   /// Gas and bodies are at the end of a step.
-  /// @throws NumericalFailure for a body that touches a wall or another body.
+  /// @throws BeyondModel for a body that touches a wall or another body.
   void stepped() { watch_.look(fluid_, surface_); }
   /// @}
 
@@ -133,6 +148,12 @@ class Immersed {
   Repetition repetition_;
   Exchanged<dim> exchanged_;
   Watch<dim> watch_;
+  struct Before {
+    typename Bodies::Memory bodies;
+    mbs::MeanLoad mean_load;
+    Exchanged<dim> exchanged;
+  };
+  Before before_;  // this step
 };
 
 }  // namespace sphmbs::coupling

@@ -29,41 +29,57 @@ struct Staggered {
     expects(structure_steps >= 1, "structure_steps", structure_steps, "at least 1");
   }
 
-  /// One step of the structure; the gas does as many as there are in it.
-  /// @throws NumericalFailure from gas or structure; with sub-cycling one of them may then be
-  /// ahead.
+  /// One step of the structure; the gas does as many as there are in it. Where one of the gas's
+  /// fails, the step ends with the one before it.
+  /// @throws NumericalFailure from gas or structure; the step can then be undone, unless the gas
+  ///         has done several and the structure fails.
   template <class System, class ChooseStep>
   double step(System& system, ChooseStep&& choose_step) const {
     check();
     auto& fluid = system.fluid();
+    system.begin();
     const double start = system.time();
     const mbs::State& old = system.bodies().state();
     const mbs::VectorXd q = old.q;
     mbs::VectorXd Q = mbs::VectorXd::Zero(q.size());
     system.depart(q, old.v, accelerated ? old.vdot : mbs::VectorXd::Zero(q.size()));
     double dt = 0;
-    for (int k = 0; k < gas_steps; ++k) {
-      fluid.stage(0, 0);
-      fluid.rates(0);
-      if (k == 0) {
+    int done = 0;
+    for (int k = 0; k < gas_steps && done == k; ++k) {
+      const auto gas_step = [&] {
+        fluid.stage(0, 0);
+        fluid.rates(0);
+        if (k == 0) {
+          system.read();
+          dt = choose_step() / gas_steps;
+        }
+        const double middle = start + (k + 0.5) * dt;
+        fluid.stage(dt / 2, dt / 2);
+        fluid.rates(0);
+        fluid.admit(dt, dt);
         system.read();
-        dt = choose_step() / gas_steps;
+        Q += system.load_at(middle) / gas_steps;
+        system.gas_acted(dt, middle);
+        if (k + 1 < gas_steps) fluid.commit(dt, dt);
+        ++done;
+      };
+      try {
+        gas_step();
+      } catch (const BeyondModel&) {
+        throw;
+      } catch (const NumericalFailure&) {
+        if (k == 0) throw;
+        fluid.undo();
       }
-      const double middle = start + (k + 0.5) * dt;
-      fluid.stage(dt / 2, dt / 2);
-      fluid.rates(0);
-      system.read();
-      Q += system.load_at(middle) / gas_steps;
-      system.gas_acted(dt, middle);
-      if (k + 1 < gas_steps) fluid.commit(dt, dt);
     }
-    move(system, Q, gas_steps * dt);
+    Q *= static_cast<double>(gas_steps) / done;
+    move(system, Q, done * dt);
     const mbs::State& now = system.bodies().state();
     system.bodies_went(Q, now.q - q);
     system.depart(now.q, now.v, now.vdot);
-    fluid.commit(dt, dt);
+    if (done == gas_steps) fluid.commit(dt, dt);
     system.stepped();
-    return gas_steps * dt;
+    return done * dt;
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,21 +42,47 @@ struct Strong {
     expects(slack > 0 && slack < 1, "slack", slack, "above 0 and below 1");
   }
 
-  /// @throws NumericalFailure where forces and motion do not come to agree.
+  /// Where `repeat` does not come to an end, small shares of corrections are tried as well.
+  /// @throws NumericalFailure where forces and motion do not come to agree; the step can be undone.
   template <class System, class ChooseStep>
   double step(System& system, ChooseStep&& choose_step) const {
     check();
     auto& fluid = system.fluid();
-    auto& body = system.bodies();
-    const mbs::State old = body.state();
+    system.begin();
     system.evaluate();
-    const double dt = choose_step(), middle = system.time() + dt / 2;
+    const double dt = choose_step();
     fluid.stage(dt / 2, dt / 2, slack * system.surface().smoothing_length());
     fluid.follow(dt / 2);
     system.read();
+    const auto start = system.surface().forces();
+    std::vector<double> course;  // of the change of forces
+    if (agree(system, dt, start, repeat, course)) return dt;
+    system.repetition() = {};
+    if (agree(system, dt, start, Relaxation{.share = careful}, course)) return dt;
+    std::ostringstream text;
+    text << "t = " << system.time() << " s: forces and motion do not agree after " << most
+         << " repetitions, and after as many with a share of " << careful << ", in a step of " << dt
+         << " s; the change of the forces, as a share of them, was";
+    constexpr std::size_t shown = 8;
+    for (std::size_t k = course.size() < shown ? 0 : course.size() - shown; k < course.size(); ++k)
+      text << " " << course[k];
+    text << "\n  likely: a body much lighter than the gas around it, or a tolerance below rounding"
+            "\n  try: a smaller --cfl, a larger tolerance, or more repetitions";
+    throw NumericalFailure(text.str(), "E340");
+  }
+
+ private:
+  static constexpr double careful = 0.2;
+
+  // Repeats until forces and motion agree, and then takes the step.
+  template <class System, class Rule, class Forces>
+  bool agree(System& system, double dt, Forces x, const Rule& rule,
+             std::vector<double>& course) const {
+    auto& fluid = system.fluid();
+    auto& body = system.bodies();
+    const mbs::State old = body.state();
+    const double middle = system.time() + dt / 2;
     system.repetition().begin();
-    using Forces = std::vector<Vec<System::dim>>;
-    Forces x = system.surface().forces();
     mbs::State guess = old;
     mbs::VectorXd last_way;
     for (int k = 0;; ++k) {
@@ -65,8 +92,10 @@ struct Strong {
       auto next = structure.attempt(body, dt, guess);
       if (!next.course.converged)
         throw NumericalFailure("t = " + std::to_string(system.time()) +
-                               " s: Newton's method fails within a strongly coupled step of " +
-                               std::to_string(dt) + " s; try a smaller --cfl");
+                                   " s: Newton's method fails within a strongly coupled step of " +
+                                   std::to_string(dt) + " s; try a smaller --cfl\n" +
+                                   next.course.table(),
+                               "E341");
       const mbs::VectorXd way = next.state.q - old.q;
       // Of coordinates: then forces cannot agree better either.
       const double rounding =
@@ -74,12 +103,18 @@ struct Strong {
       const bool rests = last_way.size() > 0 && (way - last_way).cwiseAbs().maxCoeff() <= rounding;
       last_way = way;
       system.depart(old.q, old.v, (2 / dt) * (way / dt - old.v));
-      fluid.follow(dt / 2);
+      try {
+        fluid.follow(dt / 2);
+      } catch (const NumericalFailure&) {  // a repetition that diverges takes bodies too far
+        course.push_back(std::numeric_limits<double>::infinity());
+        return false;
+      }
       system.read();
       const Forces& now = system.surface().forces();
       const double off = (flat(now) - flat(x)).norm(), size = flat(now).norm();
       if (rests || off <= tolerance * size) {
         fluid.rates(0);
+        fluid.admit(dt, dt);
         body.accept(std::move(next.state), std::move(next.algorithmic));
         system.mean_load().accept(std::move(end), dt);
         system.gas_acted(dt, middle);
@@ -87,19 +122,15 @@ struct Strong {
         system.depart(body.state().q, body.state().v, body.state().vdot);
         fluid.commit(dt, dt);
         system.stepped();
-        return dt;
+        return true;
       }
-      if (k >= most)
-        throw NumericalFailure(
-            "t = " + std::to_string(system.time()) + " s: forces and motion do not agree after " +
-            std::to_string(most) + " repetitions, the last change of the forces being " +
-            std::to_string(off / size) + " of them; try a smaller --cfl or a larger tolerance");
-      flat(x) = repeat.next(flat(x), flat(now), system.repetition());
+      course.push_back(off / size);
+      if (k >= most || !std::isfinite(off)) return false;
+      flat(x) = rule.next(flat(x), flat(now), system.repetition());
       guess = std::move(next.state);
     }
   }
 
- private:
   template <int Dim>
   static auto flat(std::vector<Vec<Dim>>& forces) {
     return Eigen::Map<mbs::VectorXd>(forces[0].component, numbers(forces));

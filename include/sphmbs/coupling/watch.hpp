@@ -65,7 +65,7 @@ class Watch {
     time_ = fluid.time();
   }
 
-  /// After a step. @throws NumericalFailure where a body touches a wall or another body.
+  /// After a step. @throws BeyondModel where a body touches a wall or another body.
   template <class Fluid, class Surface>
   void look(Fluid& fluid, const Surface& surface) {
     way_ += (2 * surface.fastest() + moved_) * (fluid.time() - time_);
@@ -125,9 +125,10 @@ class Watch {
     const std::string gap =
         "the gap between virtual particles " + n.pair + " is " + said(n.gap * n.spacing) + " m";
     if (n.gap < 0)
-      throw NumericalFailure("t = " + said(time_) + " s: " + gap +
-                             ": bodies that touch are not modelled; end the run before, give them "
-                             "more room, or join them");
+      throw BeyondModel("t = " + said(time_) + " s: " + gap +
+                            ": bodies that touch are not modelled; end the run before, give them "
+                            "more room, or join them",
+                        "E342");
     if (n.gap < 2 && !narrow_.contains(sets)) {
       narrow_.insert(sets);
       note("narrow gap between sets " + std::to_string(sets.first) + " and " +

@@ -11,6 +11,7 @@
 
 #include <sphmbs/core/pack.hpp>
 #include <sphmbs/execution/execution_policy.hpp>
+#include <sphmbs/execution/first_error.hpp>
 #include <sphmbs/execution/host_loop.hpp>
 #include <sphmbs/execution/host_memory.hpp>
 
@@ -30,9 +31,11 @@ struct OpenMP : HostMemory {
     const std::size_t even = n / (16 * static_cast<std::size_t>(concurrency()));
     const std::size_t chunk = even < 1 ? 1 : even > 256 ? 256 : even;
     const std::size_t chunks = (n + chunk - 1) / chunk;
+    FirstError error;
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t c = 0; c < chunks; ++c)
-      run_range(body, c * chunk, c + 1 < chunks ? (c + 1) * chunk : n);
+      error.guard(c, [&] { run_range(body, c * chunk, c + 1 < chunks ? (c + 1) * chunk : n); });
+    error.rethrow();
   }
 
   static int concurrency() { return omp_get_max_threads(); }

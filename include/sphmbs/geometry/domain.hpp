@@ -58,12 +58,17 @@ struct Periodicity {
   }
 };
 
+/// What becomes of gas that leaves the box along axes that are not periodic: it goes on, it ends
+/// the run, or it is removed and counted.
+enum class Escape { allow, error, remove };
+
 /// The space that gas lives in: a box, and the axes along which it repeats, which are the periodic
 /// in- and outflow of sect. 3.1. Walls may lie outside the box along the other axes.
 template <int Dim>
 struct Domain {
   Box<Dim> box;
   std::array<bool, Dim> periodic{};
+  Escape escape = Escape::allow;
 
   template <class T>
   Periodicity<Dim, T> periodicity() const {

@@ -39,7 +39,7 @@ concept LinearConstraint = Constraint<C> && requires(const C joint) {
 };
 
 /// Constraint that looks at every accepted state, with all coordinates of the structure.
-///   accept(q, t)   @throws NumericalFailure for an event that ends the run
+///   accept(q, t)   @throws BeyondModel for an event that ends the run
 template <class C>
 concept WatchingConstraint = Constraint<C> && requires(C joint, const VectorXd& q, double t) {
   joint.accept(q, t);

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include <sphmbs/mbs/energies.hpp>
 #include <sphmbs/mbs/newton.hpp>
@@ -119,6 +122,7 @@ class Dynamics {
     archive("statistics", statistics_);
     archive("last_step", last_step_);
     archive("suggested_step", suggested_step_);
+    archive("worst", worst_);
     archive("power_dissipated", powers_.dissipated);
     archive("power_of_loads", powers_.work);
     archive("dissipated", dissipated_);
@@ -137,10 +141,59 @@ class Dynamics {
   }
   /// Step that an error estimate suggests [s]; infinite before the first one.
   double suggested_step() const { return suggested_step_; }
-  void suggest_step(double dt) { suggested_step_ = dt; }
+  /// @param worst  coordinate whose error asks for it, -1 for none
+  void suggest_step(double dt, int worst = -1) {
+    suggested_step_ = dt;
+    worst_ = worst;
+  }
+  /// Whose error decides on the suggested step.
+  std::string limited_by() const {
+    return worst_ < 0 ? "the accuracy asked for" : "the error of " + equations_.name_of(worst_);
+  }
+
+  /// @throws NumericalFailure naming a coordinate, rate or multiplier that is not finite.
+  void require_finite() const {
+    const auto look = [&](const VectorXd& x, const char* what, int offset) {
+      if (x.allFinite()) return;
+      const int k = first_not_finite(x);
+      std::ostringstream text;
+      text << "t = " << state_.t << " s: " << what << " of " << equations_.name_of(offset + k)
+           << " is " << x[k]
+           << ": not finite\n  likely: a force, a load or a start value that is not finite\n  try: "
+              "look at what acts on this part";
+      throw NumericalFailure(text.str(), "E331");
+    };
+    look(state_.q, "coordinate q", 0);
+    look(state_.v, "velocity v", 0);
+    look(state_.vdot, "acceleration vdot", 0);
+    look(state_.lambda, "multiplier lambda", equations_.coordinates());
+  }
+
+  /// What a step changes, for steps that are undone.
+  struct Memory {
+    State state;
+    VectorXd algorithmic;
+    Powers powers;
+    double last_step, suggested_step, dissipated, work;
+    int worst;
+  };
+  Memory memory() const {
+    return {state_, algorithmic_, powers_, last_step_, suggested_step_, dissipated_, work_, worst_};
+  }
+  void recall(const Memory& m) {
+    state_ = m.state;
+    algorithmic_ = m.algorithmic;
+    powers_ = m.powers;
+    last_step_ = m.last_step;
+    suggested_step_ = m.suggested_step;
+    dissipated_ = m.dissipated;
+    work_ = m.work;
+    worst_ = m.worst;
+    factors_.forget();
+  }
 
   /// Takes a state as the one that a step has led to.
-  /// @throws NumericalFailure where a joint ends the run, or a removed condition is violated.
+  /// @throws BeyondModel where a joint ends the run, or a removed condition is violated.
   void accept(State state, VectorXd algorithmic) {
     const double dt = state.t - state_.t;
     structure_.for_each_type([&]<class T>(auto& components) {
@@ -173,7 +226,7 @@ class Dynamics {
              << ": the joints contradict each other away from the initial position, or that was a "
                 "singular one, such as bars in line, where they seem to hold the same; then start "
                 "elsewhere.";
-        throw NumericalFailure(text.str());
+        throw BeyondModel(text.str(), "E333");
       }
   }
 
@@ -186,6 +239,7 @@ class Dynamics {
   DynamicsStatistics statistics_;
   double size_ = 1, last_step_ = 0;
   double suggested_step_ = std::numeric_limits<double>::infinity();
+  int worst_ = -1;
   Powers powers_;
   double dissipated_ = 0, work_ = 0, stored_at_start_ = 0;
 };

@@ -79,6 +79,7 @@ struct GeneralizedAlpha {
   /// @param guess  of accelerations and multipliers at the end of the step
   template <class System>
   Attempt attempt(System& system, double h, const State& guess) const {
+    system.require_finite();
     Attempt first = attempt_once(system, h, guess);
     if (first.course.converged || first.course.singular) return first;
     system.factors().forget();
@@ -177,15 +178,19 @@ struct GeneralizedAlpha {
       double ratio = 0.5;
       if (next.course.converged) {
         double error = 0;
+        int worst = -1;
         const std::vector<Role>& roles = system.equations().roles();
         for (int k = 0; k < next.before.size(); ++k)
-          if (roles[static_cast<std::size_t>(k)] == Role::massive)
-            error = std::max(error, std::abs(next.algorithmic[k] - next.before[k]));
+          if (const double own = std::abs(next.algorithmic[k] - next.before[k]);
+              roles[static_cast<std::size_t>(k)] == Role::massive && own > error) {
+            error = own;
+            worst = k;
+          }
         error *= std::abs(beta - 1.0 / 6) * h * h;
         ratio = std::clamp(0.9 * std::cbrt(*accuracy / std::max(error, 1e-300)), 0.2, 2.0);
         if (error <= *accuracy) {
           // Equal steps keep factors in use.
-          system.suggest_step(ratio > 0.95 && ratio < 1.2 ? h : ratio * h);
+          system.suggest_step(ratio > 0.95 && ratio < 1.2 ? h : ratio * h, worst);
           system.accept(std::move(next.state), std::move(next.algorithmic));
           return h;
         }
@@ -228,7 +233,7 @@ struct GeneralizedAlpha {
            << ", with a multiplier of " << failed.state.lambda[joint];
     text << ". Try a shorter step, a smaller spectral_radius, or check that joints do not lock.\n"
          << failed.course.table();
-    throw NumericalFailure(text.str());
+    throw NumericalFailure(text.str(), "E330");
   }
 };
 

@@ -55,7 +55,7 @@ Modes eigenmodes(Structure& structure, const State& state) {
   const MatrixXd Mz = Z.transpose() * (equations.mass() * Z);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(Kz, Mz);
   if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
-    throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.");
+    throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.", "E337");
   return {solver.eigenvalues(), Z * solver.eigenvectors()};
 }
 

@@ -178,7 +178,8 @@ class ConsistentStart {
     if (!x.allFinite())
       throw NumericalFailure(
           "The mass matrix together with the conditions is singular at t = 0: a coordinate has "
-          "neither mass nor a condition that determines it; give it mass or a joint.");
+          "neither mass nor a condition that determines it; give it mass or a joint.",
+          "E332");
     return x;
   }
 

@@ -130,7 +130,8 @@ class EquilibriumSearch {
     const double distance = (now - before).cwiseAbs().maxCoeff(&furthest);
     if (distance <= far * std::max(size_, before.cwiseAbs().maxCoeff())) return;
     throw NumericalFailure("Statics: nothing holds " + equations_.name_of(furthest) +
-                           " against the loads: is a joint missing?");
+                               " against the loads: is a joint missing?",
+                           "E336");
   }
 
   // Part that a slight support leaves the most room to.
@@ -207,7 +208,7 @@ Equilibrium equilibrium(Structure& structure, const StaticsOptions& options = {}
     if (step >= options.smallest_step) continue;
     std::ostringstream text;
     text << "Statics: Newton's method does not converge at " << 100 * target << " % of the loads";
-    throw NumericalFailure(text.str() + search.complaint());
+    throw NumericalFailure(text.str() + search.complaint(), "E335");
   }
   return found;
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/atomic.hpp>
+#include <sphmbs/core/error.hpp>
+#include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/execution/scan.hpp>
 #include <sphmbs/neighbours/cell_grid.hpp>
 #include <sphmbs/neighbours/cell_neighbours.hpp>
@@ -34,6 +38,23 @@ struct PlaceInCells {
     const std::uint32_t c = grid.cell(fields.position(i));
     order[first[c] + atomic::fetch_add(placed + c, 1)] = static_cast<std::uint32_t>(i);
   }
+};
+
+/// The longest list, and whose it is: the lowest id of several.
+struct Crowd {
+  std::uint32_t count = 0;
+  std::uint32_t id = 0;
+  SPHMBS_INLINE void combine(const Crowd& o) {
+    const bool more = o.count > count || (o.count == count && o.id < id);
+    count = more ? o.count : count;
+    id = more ? o.id : id;
+  }
+};
+
+struct CrowdAround {
+  const std::uint32_t* count;
+  const std::uint32_t* id;
+  SPHMBS_INLINE Crowd operator()(std::size_t i) const { return {count[i], id[i]}; }
 };
 
 struct Zero {
@@ -110,7 +131,8 @@ class CellList {
  public:
   /// Sorts the particles and lists the neighbours of each, in the order of the cells. The result
   /// does not depend on the number of threads.
-  /// @throws InvalidInput if a periodic axis is shorter than two supports.
+  /// @throws InvalidInput if a periodic axis is shorter than two supports; NumericalFailure where
+  ///         particles are so crowded that their lists would take all memory.
   void rebuild(particles::Particles<Dim, T, Policy>& particles, const geometry::Domain<Dim>& domain,
                const Reach& reach) {
     check_reach(domain, reach);
@@ -135,6 +157,8 @@ class CellList {
                                                                               nullptr, nullptr});
     else
       Policy::for_each(n, detail::CountNeighbours<Dim, T, W>{find, order.data()});
+    refuse_crowd(execution::reduce<Policy>(
+        n, detail::Crowd{}, detail::CrowdAround{order.data(), particles.fields().id}));
     const std::uint64_t pairs = execution::exclusive_scan<Policy>(n, order.data(), first_.data());
     // A little room to spare, since fresh memory for every new list would cost more than the list.
     if (pairs > list_.size() || 2 * pairs < list_.size())
@@ -187,6 +211,19 @@ class CellList {
   }
 
  private:
+  // In space at twice the usual smoothing length there are some 3 000.
+  static constexpr std::uint32_t most_neighbours = 8192;
+
+  static void refuse_crowd(const detail::Crowd& most) {
+    if (most.count <= most_neighbours) return;
+    throw NumericalFailure(
+        "particle #" + std::to_string(most.id) + " has " + std::to_string(most.count) +
+            " neighbours, more than " + std::to_string(most_neighbours) +
+            "\n  likely: many particles at one place, or a smoothing length that does not fit the "
+            "spacing\n  try: remove particles that were added twice; a smaller smoothing ratio",
+        "E311", {most.id});
+  }
+
   void sort(particles::Particles<Dim, T, Policy>& particles, const CellGrid<Dim, T>& grid,
             std::uint32_t* order) {
     const std::size_t n = particles.size();

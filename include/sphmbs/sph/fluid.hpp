@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
+#include <utility>
 
 #include <sphmbs/core/archive.hpp>
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/neighbours/cell_list.hpp>
 #include <sphmbs/sph/diagnosis.hpp>
+#include <sphmbs/sph/escape.hpp>
 #include <sphmbs/sph/exchange.hpp>
 #include <sphmbs/sph/follow.hpp>
 #include <sphmbs/sph/interpolate.hpp>
@@ -67,7 +70,7 @@ class Fluid {
   /// Goes to the stage y + scale k at time() + dt.
   /// @throws NumericalFailure naming a particle, its place and its state where the state at this
   ///         stage is not finite, or density, smoothing length or squared sound speed is not
-  ///         positive, or particles could move by more than they reach.
+  ///         positive, or particles could move by more than they reach. The step can be undone.
   /// @param slack  how far `follow` may move virtual particles from where they are then [m]
   void stage(double scale, double dt, double slack = 0) {
     slopes_known_ = false;
@@ -84,7 +87,7 @@ class Fluid {
   void follow(double dt) {
     const auto to = advance(0, dt);
     if (motion_surplus<Policy>(to, places_, size()) > lists_.surplus())
-      fail("bodies go too far within the iterations of a step", step_limit(survey_, 1).id, dt);
+      fail(too_far("bodies go too far within the iterations of a step"), survey_.courant.id, dt);
     Policy::for_each(size(), FollowMotion<Scheme, T, Motion>{to, places_, particles_.records(),
                                                              vicinities_.data()});
     if constexpr (Scheme::Wall::evolves) slopes_known_ = false;  // they see where walls are
@@ -96,6 +99,7 @@ class Fluid {
   Motion& motion() { return motion_; }
 
   /// k = keep k + f(stage).
+  /// @throws NumericalFailure naming a particle with a rate that is not finite.
   void rates(double keep) {
     evaluate_slopes();
     {
@@ -111,12 +115,44 @@ class Fluid {
         SurveyParticle<Scheme, T>{scheme_, particles_.fields(), particles_.rates(),
                                   particles_.records(), 1 / weight_});
     statistics_.evaluated(survey_.pairs, survey_.falls);
+    judged_ = false;
+    if (survey_.is_sick()) {
+      const CulpritType culprit(particles_, survey_.sick);
+      fail(culprit.rates(), survey_.sick, staged_, culprit.text(scheme_.eos));
+    }
     exchange_.evaluated(survey_, gas_mass_, scheme_.acceleration, keep);
     lists_.moving(survey_.approach() + Scheme::Kernel::support * survey_.h_rate);
   }
 
+  /// Judges y + scale k at time() + dt before it replaces y; `commit` does so itself.
+  /// @throws NumericalFailure naming a particle that would not be physical; y is as it was.
+  void admit(double scale, double dt) {
+    if (judged_) return;
+    judged_ = true;
+    const auto timer = statistics_.time(Phase::update);
+    const JudgeUpdate<Scheme, T, Motion> judge{
+        advance(scale, dt), scheme_, static_cast<T>(admission_.least),
+        admission_.fastest * admission_.fastest, culprit_.data()};
+    const std::uint32_t id = culprit_of<Policy>(judge, culprit_, size());
+    if (id == nobody) return;
+    write_records(scale, dt);  // for the message, if it does not fail itself
+    fail_for_state(id, dt);
+  }
+
+  /// Back to the state y after something failed: from its first stage to its commit a step can be
+  /// undone.
+  void undo() {
+    lists_.undo(before_.lists);
+    exchange_ = before_.exchange;
+    judged_ = slopes_known_ = false;
+    ++statistics_.retries;
+  }
+
   /// y = y + scale k, and the time goes on by dt.
+  /// @throws NumericalFailure as `admit` does; BeyondModel where gas has left the domain that must
+  ///         not, then the step has been taken.
   void commit(double scale, double dt) {
+    admit(scale, dt);
     const double surplus = motion_surplus<Policy>(advance(0, dt), places_, size());
     {
       const auto timer = statistics_.time(Phase::update);
@@ -127,7 +163,10 @@ class Fluid {
     exchange_.committed(scale);
     ++statistics_.steps;
     lists_.stepped(dt, surplus);
-    if (openings_.moved(survey_.fastest_move() * dt, lists_.outdated(0))) let_pass();
+    const bool anew = lists_.outdated(0);
+    if (openings_.moved(survey_.fastest_move() * dt, anew)) let_pass();
+    if (anew && domain_.escape == geometry::Escape::remove) remove_escaped();
+    before_ = {lists_, exchange_};
   }
 
   double time() const { return time_; }  // of the state y [s]
@@ -147,6 +186,21 @@ class Fluid {
   /// What has passed each opening, in the order they were added. Particles pass in groups, at about
   /// a quarter of the smallest smoothing length beyond the face.
   std::span<const Traffic<dim>> traffic() const { return openings_.traffic(); }
+
+  /// What has left the domain and was removed, with Escape::remove.
+  const Passed<dim>& escaped() const { return escaped_; }
+  /// Gas particles that there should be: those of the start, and what came in less what was lost.
+  std::uint64_t gas_accounted() const {
+    std::uint64_t n = gas_at_start_ - escaped_.particles;
+    for (const Traffic<dim>& t : traffic()) n += t.in.particles - t.out.particles;
+    return n;
+  }
+
+  /// What an update may do to particles.
+  Admission& admission() { return admission_; }
+
+  /// A line on a particle at the last stage. @param id  of a particle that is there
+  std::string describe(std::uint32_t id) { return CulpritType(particles_, id).text(scheme_.eos); }
 
   /// Sums over the state y.
   Totals<dim> totals() {
@@ -191,8 +245,12 @@ class Fluid {
     archive("neighbours", search_);
     archive("lists", lists_);
     archive("exchange", exchange_);
+    archive("escaped", escaped_);
     archive("statistics", statistics_);
-    if constexpr (A::restores) vicinities_.resize(size());
+    if constexpr (A::restores) {
+      vicinities_.resize(size());
+      before_ = {lists_, exchange_};
+    }
   }
 
   std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }
@@ -230,30 +288,85 @@ class Fluid {
 
   void write_records(double scale, double dt) {
     const auto timer = statistics_.time(Phase::update);
-    using Write = WriteRecords<Scheme, T, Motion>;
-    const std::uint32_t culprit =
-        write_all<Policy>(Write{advance(scale, dt), scheme_, places_, particles_.records(),
-                                vicinities_.data(), culprit_.data()},
-                          culprit_, size());
-    if (culprit != Write::nobody) fail("state not finite or not physical", culprit, dt);
+    staged_ = dt;
+    const std::uint32_t culprit = culprit_of<Policy>(
+        WriteRecords<Scheme, T, Motion>{advance(scale, dt), scheme_, places_, particles_.records(),
+                                        vicinities_.data(), culprit_.data()},
+        culprit_, size());
+    if (culprit != nobody) fail_for_state(culprit, dt);
+  }
+
+  // Gas moves by less than a skin between two lists.
+  void remove_escaped() {
+    const Outside<dim> found = outside<Policy>(particles_, domain_);
+    if (found.passed.particles == 0) return;
+    if (found.passed.particles == gas_count_) escape("and all others have left it", found.id);
+    remove_outside<Policy>(particles_, domain_);
+    escaped_.combine(found.passed);
+    gas_count_ -= found.passed.particles;
+    gas_mass_ -= found.passed.mass;
+    vicinities_.resize(size());
+    lists_.forget();
+  }
+
+  void look_for_escaped() {
+    const Outside<dim> found = outside<Policy>(particles_, domain_);
+    if (!(found.lengths <= far))
+      escape("is " + std::to_string(found.lengths) + " lengths of it outside", found.farthest);
+    if (domain_.escape == geometry::Escape::error && found.passed.particles > 0)
+      escape("is outside", found.id);
+  }
+
+  [[noreturn]] void escape(const std::string& how, std::uint32_t id) {
+    throw BeyondModel("gas leaves the domain at step " + std::to_string(statistics_.steps) +
+                          ", t = " + std::to_string(time_) + " s: particle #" + std::to_string(id) +
+                          " " + how +
+                          "\n  likely: a wall has a hole or is too thin, or the gas is meant to "
+                          "leave\n  try: a larger domain, walls of more layers, an opening, or "
+                          "Escape::remove",
+                      "E309", {id});
   }
 
   void rebuild_lists(double dt) {
     const auto timer = statistics_.time(Phase::neighbours);
+    look_for_escaped();
     ++statistics_.rebuilds;
     const Largest widest = widest_particle<Policy>(particles_);
     const auto reach = lists_.plan(dim, Scheme::Kernel::support, widest.h, dt);
     if (!space_.fits(2 * reach.support * widest.h))
-      fail("a period is shorter than two support radii", widest.id, dt);
-    if (reach.skin > reach.support * widest.h)
-      fail("particles may pass each other unseen within this step", step_limit(survey_, 1).id, dt);
+      fail({"E308", "a period is shorter than two support radii",
+            "the gas expands until it sees itself around the periodic side",
+            "a longer period, or a finer gas"},
+           widest.id, dt);
+    if (!(reach.skin <= reach.support * widest.h))
+      fail(too_far("particles may pass each other unseen within this step"), survey_.courant.id,
+           dt);
     search_.rebuild(particles_, domain_, reach);
   }
 
-  [[noreturn]] void fail(std::string_view what, std::uint32_t id, double dt) {
-    const Moment moment = moment_of_stage(statistics_.steps, time_, dt, last_dt_);
-    throw NumericalFailure(describe_culprit<Policy>(particles_, scheme_.eos, what, id, moment));
+  using CulpritType = Culprit<dim, T, Policy>;
+
+  static Finding too_far(std::string what) {
+    return {"E307", std::move(what), "the step is too long for the fastest motion",
+            "a smaller step (--cfl or --step), or a finer or smoother initial state"};
   }
+  [[noreturn]] void fail_for_state(std::uint32_t id, double dt) {
+    const CulpritType culprit(particles_, id);
+    fail(culprit.state(admission_), id, dt, culprit.text(scheme_.eos));
+  }
+  [[noreturn]] void fail(const Finding& found, std::uint32_t id, double dt) {
+    fail(found, id, dt, describe(id));
+  }
+  [[noreturn]] void fail(const Finding& found, std::uint32_t id, double dt,
+                         const std::string& who) {
+    throw failure_of(found, moment_of_stage(statistics_.steps, time_, dt, last_dt_), id, who);
+  }
+
+  struct Before {
+    ListSchedule lists;
+    Exchange<dim> exchange;
+  };
+  static constexpr double far = 1e3;  // in lengths of the domain, from where cells make no sense
 
   Scheme scheme_;
   geometry::Domain<dim> domain_;
@@ -275,6 +388,12 @@ class Fluid {
   double weight_ = 0;          // of all evaluations in the rates
   bool slopes_known_ = false;  // of this stage
   Exchange<dim> exchange_;
+  Before before_;  // this step
+  Admission admission_;
+  Passed<dim> escaped_;
+  std::uint64_t gas_at_start_ = gas_count_;
+  double staged_ = 0;    // time of the stage less that of the state [s]
+  bool judged_ = false;  // the update with these rates
 };
 
 }  // namespace sphmbs::sph

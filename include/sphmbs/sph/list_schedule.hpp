@@ -17,12 +17,19 @@ class ListSchedule {
   /// True where a stage at time + dt could miss a neighbour. At the beginning of a step the stages
   /// ahead are reckoned with too, so that one step uses one set of lists.
   bool outdated(double dt) const {
-    return !built_ ||
-           drift_ + surplus_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_) > reach_.skin;
+    const double way = drift_ + surplus_ + speed_ * std::max(dt, dt > 0 ? 0 : lookahead_);
+    return !built_ || !(way <= reach_.skin);
   }
 
   /// Particles are no longer the same.
   void forget() { built_ = false; }
+
+  /// A step is undone that began with the schedule `before`. Lists that it made may be narrower
+  /// than that says.
+  void undo(const ListSchedule& before) {
+    *this = before;
+    forget();
+  }
 
   /// Rates were evaluated: pairs close in, and reaches grow, by `speed` together at most [m/s].
   void moving(double speed) { speed_ = speed; }

@@ -109,7 +109,8 @@ class Openings {
     if (next_id_ + followers >= std::numeric_limits<std::uint32_t>::max())
       throw NumericalFailure(
           "more than 2^32 - 1 particles came in by openings; run on from the "
-          "present state as a new start");
+          "present state as a new start",
+          "E312");
     Counts order(now);
     Policy::for_each(n, detail::Copy{copies.data(), first.data(), order.data()});
     particles.select(order.data(), now);

@@ -83,13 +83,35 @@ struct Advance {
   }
 };
 
+inline constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+/// What one update may do to a particle; an update that does more is not made.
+struct Admission {
+  double least = 0.02;  // share of density and of smoothing length that it leaves [-]
+  double fastest = std::numeric_limits<double>::infinity();  // speed of gas [m/s]
+};
+
+template <class U>
+SPHMBS_INLINE bool is_finite(U x) {
+  return math::abs(x) <= std::numeric_limits<U>::max();
+}
+
+/// Whether a state with sound speed c is finite and physical: density, smoothing length and squared
+/// sound speed are positive. Written so that a NaN, which compares false, is caught.
+template <int Dim, class T>
+SPHMBS_INLINE bool is_sound(const Stepped<Dim, T>& y, T c) {
+  bool good =
+      y.rho > T(0) && y.h > T(0) && c > T(0) && is_finite(c) && is_finite(y.rho) && is_finite(y.h);
+  for (int k = 0; k < Dim; ++k) good = good && is_finite(y.r[k]) && is_finite(y.v[k]);
+  return good;
+}
+
 /// Writes the records of a stage (predicted state, pressure and sound speed) and notes the lowest
-/// id among particles whose state is not finite or not physical: density, smoothing length and
-/// squared sound speed are positive. Checked here, before such a state spreads to the neighbours.
+/// id among particles whose state is not finite or not physical. Checked here, before such a state
+/// spreads to the neighbours.
 template <class Scheme, class T, class Motion>
 struct WriteRecords {
   static constexpr int dim = Scheme::dim;
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   Advance<Scheme, T, Motion> advance;
   Scheme scheme;
   geometry::Periodicity<dim, double> space;
@@ -116,26 +138,43 @@ struct WriteRecords {
     if constexpr (Scheme::Wall::surfaces)
       if (particles::is_virtual(advance.fields.set[i]))
         particles::store_surface<dim, T>(vicinities, i, advance.surface(i));
-    // Written so that a NaN, which compares false, is caught.
-    bool good = y.rho > T(0) && y.h > T(0) && c > T(0) && finite(c) && finite(y.rho) && finite(y.h);
-    for (int k = 0; k < dim; ++k) good = good && finite(y.r[k]) && finite(y.v[k]);
-    if (!good) atomic::lower(culprit, advance.fields.id[i]);
-  }
-
- private:
-  template <class U>
-  static SPHMBS_INLINE bool finite(U x) {
-    return math::abs(x) <= std::numeric_limits<U>::max();
+    if (!is_sound(y, c)) atomic::lower(culprit, advance.fields.id[i]);
   }
 };
 
-/// Lets `write` loop over n particles, with the memory for its culprit.
+/// Looks at y + scale k before it replaces y, and notes the lowest id among particles that it would
+/// make not physical or take too far.
+template <class Scheme, class T, class Motion>
+struct JudgeUpdate {
+  Advance<Scheme, T, Motion> advance;
+  Scheme scheme;
+  T least;
+  double fastest_squared;
+  std::uint32_t* culprit;
+
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    const auto& fields = advance.fields;
+    const auto y = advance(i);
+    const T c = scheme.eos.sound_speed(y.rho, scheme.eos.pressure(y.rho, y.e));
+    const bool good =
+        is_sound(y, c) && y.rho >= least * fields.rho[i] && y.h >= least * fields.h[i] &&
+        (particles::is_virtual(fields.set[i]) || speed_squared(y.v) <= fastest_squared);
+    if (!good) atomic::lower(culprit, fields.id[i]);
+  }
+
+ private:
+  static SPHMBS_INLINE double speed_squared(const Vec<Scheme::dim, T>& v) {
+    return norm2(v.template to<double>());
+  }
+};
+
+/// Lets `body` loop over n particles, with the memory for its culprit.
 /// @return the culprit's id, or nobody
-template <execution::ExecutionPolicy Policy, class Write>
-std::uint32_t write_all(const Write& write, execution::Field<std::uint32_t, Policy>& culprit,
-                        std::size_t n) {
-  culprit.upload(std::array{Write::nobody});
-  Policy::for_each(n, write);
+template <execution::ExecutionPolicy Policy, class Body>
+std::uint32_t culprit_of(const Body& body, execution::Field<std::uint32_t, Policy>& culprit,
+                         std::size_t n) {
+  culprit.upload(std::array{nobody});
+  Policy::for_each(n, body);
   return culprit.download()[0];
 }
 

@@ -23,6 +23,7 @@ struct Statistics {
   std::uint64_t pair_interactions = 0;  // ordered pairs inside the support, over all evaluations
   std::uint64_t falls =
       0;  // of them those that met a reconstruction not admissible and did without
+  std::uint64_t retries = 0;  // steps that were undone, to be taken again in shorter ones
   std::array<double, phase_names.size()> seconds{};
 
   /// Counts an evaluation of the rates over so many pairs.
@@ -39,6 +40,7 @@ struct Statistics {
     archive("rebuilds", rebuilds);
     archive("pair_interactions", pair_interactions);
     archive("falls", falls);
+    archive("retries", retries);
     archive("seconds", seconds);
   }
 

@@ -39,8 +39,13 @@ struct Survey {
   Limit courant;             // h / (c + h |div v|)
   Limit acceleration;        // sqrt(h / |a|)
   Limit diffusion;           // h^2 / (2 nu)
+  /// Lowest id among particles with a rate that is not finite; the extremes above pass over a NaN.
+  std::uint32_t sick = std::numeric_limits<std::uint32_t>::max();
+
+  bool is_sick() const { return sick != std::numeric_limits<std::uint32_t>::max(); }
 
   SPHMBS_INLINE void combine(const Survey& o) {
+    sick = o.sick < sick ? o.sick : sick;
     for (int k = 0; k < Dim; ++k) {
       slowest[k] = math::min(slowest[k], o.slowest[k]);
       fastest[k] = math::max(fastest[k], o.fastest[k]);
@@ -88,6 +93,7 @@ struct SurveyParticle {
         is_gas || opens ? share * in_double(rates.r, i) : s.v.template to<double>();
     const Vec<dim> v = in_double(opens ? rates.push : rates.v, i);
     Survey<dim> found;
+    if (!finite_rates(i, opens)) found.sick = id;
     found.slowest = found.fastest = drift;
     found.h_rate = share * math::abs(static_cast<double>(rates.h[i]));
     found.pairs = rates.pairs[i];
@@ -109,6 +115,17 @@ struct SurveyParticle {
   }
 
  private:
+  // Zero times a number is zero, unless the number is not finite.
+  SPHMBS_INLINE bool finite_rates(std::size_t i, bool opens) const {
+    T zero = T(0) * rates.rho[i] + T(0) * rates.e[i] + T(0) * rates.h[i];
+    for (int k = 0; k < dim; ++k) zero += T(0) * rates.r[k][i] + T(0) * rates.v[k][i];
+    if (opens) {
+      zero += T(0) * rates.heating[i];
+      for (int k = 0; k < dim; ++k) zero += T(0) * rates.push[k][i];
+    }
+    return zero == T(0);
+  }
+
   static SPHMBS_INLINE Vec<dim> in_double(T* const (&field)[dim], std::size_t i) {
     return particles::FieldsView<dim, T>::at(field, i).template to<double>();
   }

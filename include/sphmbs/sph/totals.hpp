@@ -16,6 +16,7 @@ struct Totals {
   double kinetic = 0;           // energy of the gas [J]
   double internal = 0;          // energy of the gas [J]
   double virtual_internal = 0;  // energy of the virtual particles [J]
+  std::uint64_t particles = 0;  // of gas
 
   /// Kinetic and internal energy of the gas [J].
   double energy() const { return kinetic + internal; }
@@ -27,6 +28,7 @@ struct Totals {
     kinetic += o.kinetic;
     internal += o.internal;
     virtual_internal += o.virtual_internal;
+    particles += o.particles;
   }
 };
 
@@ -44,7 +46,8 @@ struct TotalsOfParticle {
             .volume = m / static_cast<double>(fields.rho[i]),
             .momentum = m * v,
             .kinetic = 0.5 * m * norm2(v),
-            .internal = m * e};
+            .internal = m * e,
+            .particles = 1};
   }
 };
 

@@ -90,7 +90,7 @@ TEST_CASE("bodies with room around them meet with nothing", "[coupling]") {
 }
 
 TEST_CASE("a body that comes near a wall is an incident, and at the wall the run ends",
-          "[coupling]") {
+          "[coupling][fault]") {
   TwoDisks near({2.6, 1.5}, {1, 0.7}, {1, 0});
   const auto incidents = near.run(0.36);
   REQUIRE(incidents.size() == 1);
@@ -117,13 +117,13 @@ TEST_CASE("bodies that start side by side and meet elsewhere are noticed", "[cou
                     Catch::Contains("of set 2") && Catch::Contains("of set 1"));
 }
 
-TEST_CASE("a body that runs into another one ends the run", "[coupling]") {
+TEST_CASE("a body that runs into another one ends the run", "[coupling][fault]") {
   CHECK_THROWS_WITH(TwoDisks({1, 1.5}, {2, 1.5}, {1, 0}).run(0.6),
                     Catch::Contains("of set 2") && Catch::Contains("of set 3") &&
                         Catch::Contains("bodies that touch"));
 }
 
-TEST_CASE("bodies that overlap or have gas in them are refused", "[coupling]") {
+TEST_CASE("bodies that overlap or have gas in them are refused", "[coupling][fault]") {
   CHECK(test::mentions(test::refusal([] {
                          TwoDisks({1, 1.5}, {1.63, 1.55}, {0, 0}).run(0.1);
                        }),
@@ -145,7 +145,7 @@ TEST_CASE("a body that leaves through a periodic side says so each time", "[coup
   CHECK(test::mentions(all[0].text, {"set 1", "lower side along y"}));
 }
 
-TEST_CASE("gas in bodies is counted", "[coupling]") {
+TEST_CASE("gas in bodies is counted", "[coupling][fault]") {
   const auto outside = TwoDisks({1, 1.5}, {2.4, 1.5}, {0, 0}).nearest();
   CHECK(outside.inside == 0);
   CHECK(outside.distance == Approx(1).epsilon(1e-9));

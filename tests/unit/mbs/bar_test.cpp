@@ -122,7 +122,7 @@ TEST_CASE("a rod in space starts rigid and has the energy of a thin rod", "[mbs]
   }
 }
 
-TEST_CASE("bars and rods refuse what makes no sense, by name and value", "[mbs]") {
+TEST_CASE("bars and rods refuse what makes no sense, by name and value", "[mbs][fault]") {
   using test::refusal;
   const Bar good{.from = {0, 0}, .to = {1, 0}, .density = 1, .area = 1};
   const auto complaint = [&](auto change) {

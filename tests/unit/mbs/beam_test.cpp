@@ -337,7 +337,7 @@ TEST_CASE("a free beam has six modes without stiffness, and bends and stretches 
   CHECK(frequency(8) == Approx(7.85320462 * 7.85320462).epsilon(6e-3));
 }
 
-TEST_CASE("a beam refuses parameters out of range and names them", "[mbs]") {
+TEST_CASE("a beam refuses parameters out of range and names them", "[mbs][fault]") {
   const auto refusal = [](auto change) {
     Beam beam = sample();
     change(beam);

@@ -361,7 +361,7 @@ TEST_CASE("the cantilever of Gerstmayr and Irschik bends as Exudyn says, Enginee
                                   {8, -0.508509237, -1.207197756}}});
 }
 
-TEST_CASE("a cable refuses parameters out of range and names them", "[mbs]") {
+TEST_CASE("a cable refuses parameters out of range and names them", "[mbs][fault]") {
   const auto refusal = [](auto change) {
     auto cable = sample<Cable<2>>();
     change(cable);

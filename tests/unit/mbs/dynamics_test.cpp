@@ -23,7 +23,7 @@ const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE("what cannot move at all is refused before any work", "[mbs]") {
+TEST_CASE("what cannot move at all is refused before any work", "[mbs][fault]") {
   Mechanism empty;
   CHECK(mentions(refusal([&] { System system(empty); }), {"number of coordinates = 0", "part"}));
   Mechanism weighed = test::double_pendulum<Mechanism>();
@@ -84,7 +84,7 @@ TEST_CASE("multipliers are asked for by a number that exists", "[mbs]") {
 }
 
 TEST_CASE("a force that is not a number ends the run with its part, a table and the last state",
-          "[mbs]") {
+          "[mbs][fault]") {
   Mechanism mechanism = test::double_pendulum<Mechanism>();
   mechanism.add(forces::PointForce<2>{
       .at = mechanism.all<ncf::Bar>()[1].end(),

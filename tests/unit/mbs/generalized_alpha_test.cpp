@@ -78,7 +78,7 @@ TEST_CASE("a step that is neither fixed nor controlled is refused", "[mbs]") {
   CHECK(test::mentions(refused({.accuracy = -1.0}, {.until = 1, .step = 1e-3}), {"accuracy = -1"}));
 }
 
-TEST_CASE("a step that fails is halved, and then reported with its iterations", "[mbs]") {
+TEST_CASE("a step that fails is halved, and then reported with its iterations", "[mbs][fault]") {
   PlanarMechanism mechanism = double_pendulum();
   Dynamics system(mechanism);
   // Few iterations are enough for short steps only.

@@ -470,7 +470,7 @@ TEST_CASE("messages name a joint and its conditions", "[mbs]") {
   CHECK(joints::pinned(two.point(0, two.place), two.q).name() == "pinned");
 }
 
-TEST_CASE("joints refuse what makes no sense, by name", "[mbs]") {
+TEST_CASE("joints refuse what makes no sense, by name", "[mbs][fault]") {
   test::Random random(40);
   Two<RigidBody> two(random);
   const Vector<3> P = two.place, t1 = two.axes.col(0), n = two.axes.col(2);

@@ -34,7 +34,7 @@ const Beam beam{.length = 1, .width = 0.1, .height = 0.1, .density = 1, .youngs_
 
 }  // namespace
 
-TEST_CASE("a cable without length or run backwards is refused, with its nodes", "[mbs]") {
+TEST_CASE("a cable without length or run backwards is refused, with its nodes", "[mbs][fault]") {
   Flexible structure;
   const Node a = node(structure, {O, X}), b = node(structure, {X, X}), c = node(structure, {O, O});
   CHECK(mentions(refusal([&] {
@@ -55,7 +55,7 @@ TEST_CASE("a cable without length or run backwards is refused, with its nodes", 
   CHECK(structure.all<Cable<3>>().size() == 1);
 }
 
-TEST_CASE("a plate whose nodes are in the wrong order is refused, with its nodes", "[mbs]") {
+TEST_CASE("a plate whose nodes are in the wrong order is refused, with its nodes", "[mbs][fault]") {
   Flexible structure;
   const std::array<Node, 4> n{node(structure, {O, X, Y}), node(structure, {X, X, Y}),
                               node(structure, {X + Y, X, Y}), node(structure, {Y, X, Y})};
@@ -75,7 +75,7 @@ TEST_CASE("a plate whose nodes are in the wrong order is refused, with its nodes
                  {"plate 1 (nodes 4, 1, 2, 3)", "at its node 1 of 4 = 0", "parallel"}));
 }
 
-TEST_CASE("a beam turned inside out is refused, with its nodes", "[mbs]") {
+TEST_CASE("a beam turned inside out is refused, with its nodes", "[mbs][fault]") {
   Flexible structure;
   const Node a = node(structure, {O, X, Y, Z}), b = node(structure, {X, X, Y, Z}),
              inverted = node(structure, {X, X, Y, -Z});

@@ -87,7 +87,7 @@ TEST_CASE("a planar body without an outline is drawn as a square of equal inerti
   CHECK(test::largest_difference(line.outline(0.25), Vector<2>(0.5, 1)) < rounding);
 }
 
-TEST_CASE("planar bodies refuse what makes no sense, by name and value", "[mbs]") {
+TEST_CASE("planar bodies refuse what makes no sense, by name and value", "[mbs][fault]") {
   const PlanarBody good{.inertia = {.mass = 1, .polar = 1}};
   const auto complaint = [&](auto change) {
     PlanarBody body = good;

@@ -510,7 +510,7 @@ TEST_CASE("About its flat state a plate of 48 coordinates is the bicubic one", "
   CHECK(free.frequencies()[2] < 1e-3);
 }
 
-TEST_CASE("A plate refuses sizes, materials and damping out of range", "[mbs]") {
+TEST_CASE("A plate refuses sizes, materials and damping out of range", "[mbs][fault]") {
   const auto complaint = [](auto&& change) {
     auto plate = some_plate<Plate36>();
     change(plate);

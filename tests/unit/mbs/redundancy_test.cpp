@@ -100,7 +100,7 @@ TEST_CASE("a row that others almost explain counts as the tolerance says", "[mbs
 }
 
 TEST_CASE("a straight chain between two pins has one condition too many, that of a joint",
-          "[mbs]") {
+          "[mbs][fault]") {
   for (const int bars : {20, 200}) {
     test::PlanarMechanism straight = chain(bars, 0);
     CHECK(test::mentions(test::refusal([&] {

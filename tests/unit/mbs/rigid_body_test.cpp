@@ -223,7 +223,7 @@ TEST_CASE("a rigid body without an outline is drawn as the box of equal inertia"
   CHECK(test::largest_difference(line.outline(0.25), Vector<3>(0, 0, 0.5)) < rounding);
 }
 
-TEST_CASE("rigid bodies refuse what makes no sense, by name and value", "[mbs]") {
+TEST_CASE("rigid bodies refuse what makes no sense, by name and value", "[mbs][fault]") {
   const auto complaint = [&](auto change) {
     RigidBody body{.inertia = ncf::solid_box(1, {1, 1, 1})};
     change(body);

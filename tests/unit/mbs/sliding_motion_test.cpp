@@ -156,7 +156,7 @@ TEST_CASE("a bead bounces off a stop with the restitution of its law", "[mbs]") 
   CHECK(-speed(system) == Approx(arrival * (1 - 2.0 / 3 * damping * arrival)).epsilon(0.01));
 }
 
-TEST_CASE("a bead that leaves its rail ends the run with the place and the time", "[mbs]") {
+TEST_CASE("a bead that leaves its rail ends the run with the place and the time", "[mbs][fault]") {
   Slope model = slope({.name = "bead"});
   Dynamics system(model);
   const std::string event =

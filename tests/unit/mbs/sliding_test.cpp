@@ -363,7 +363,7 @@ TEST_CASE("stops push a slider back from beyond the ends, and only there", "[mbs
   CHECK(push(total + 0.1, -1) == Approx(-0.5));
 }
 
-TEST_CASE("a slider beyond the end is an event once the state is accepted", "[mbs]") {
+TEST_CASE("a slider beyond the end is an event once the state is accepted", "[mbs][fault]") {
   Example<2> example(7);
   example.place(2.0);
   example.options.name = "A";

@@ -29,7 +29,7 @@ TEMPLATE_TEST_CASE("a sparse solver solves the equations of a constrained mechan
   }
 }
 
-TEMPLATE_TEST_CASE("a singular matrix is reported", "[mbs]", solvers::SparseLU,
+TEMPLATE_TEST_CASE("a singular matrix is reported", "[mbs][fault]", solvers::SparseLU,
                    solvers::SparseLDLT) {
   SparseMatrix A(2, 2);
   A.insert(0, 0) = 1;

@@ -188,7 +188,7 @@ TEST_CASE("a spring may have a law of its user, with energy and damping", "[mbs]
   CHECK(points.v.dot(now.Q) == Approx(points.v.dot(still.Q) - now.dissipation).epsilon(1e-10));
 }
 
-TEST_CASE("ends of a spring that meet are refused, as is bad input", "[mbs]") {
+TEST_CASE("ends of a spring that meet are refused, as is bad input", "[mbs][fault]") {
   using Spring = forces::SpringDamper<2>;
   const Marker<2> a = FreePoints<2, 2>::point(0), b = FreePoints<2, 2>::point(1);
   const auto refusal = [](const Spring& spring) { return test::refusal([&] { spring.check(); }); };

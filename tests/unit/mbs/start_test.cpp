@@ -27,7 +27,7 @@ TEST_CASE("initial accelerations and multipliers satisfy the equations of motion
   CHECK(system.state().vdot[2] == Approx(-9).epsilon(1e-12));
 }
 
-TEST_CASE("small errors of the start are projected and reported", "[mbs]") {
+TEST_CASE("small errors of the start are projected and reported", "[mbs][fault]") {
   PlanarMechanism mechanism = double_pendulum();
   VectorXd q = mechanism.q(), v = VectorXd::Zero(8);
   q[7] += 3e-7;  // the second bar is too short
@@ -43,7 +43,7 @@ TEST_CASE("small errors of the start are projected and reported", "[mbs]") {
   CHECK(system.start().notes.size() == 2);
 }
 
-TEST_CASE("a start that violates a joint is refused by the joint's name", "[mbs]") {
+TEST_CASE("a start that violates a joint is refused by the joint's name", "[mbs][fault]") {
   PlanarMechanism mechanism = double_pendulum();
   VectorXd q = mechanism.q();
   q[4] += 1e-3;
@@ -60,7 +60,7 @@ TEST_CASE("a start that violates a joint is refused by the joint's name", "[mbs]
                        {"Initial velocities violate", "by 0.5"}));
 }
 
-TEST_CASE("redundant conditions are named, and removed or refused", "[mbs]") {
+TEST_CASE("redundant conditions are named, and removed or refused", "[mbs][fault]") {
   PlanarMechanism twice = double_pendulum();
   const auto knee_again = joints::revolute(twice.all<ncf::Bar>()[0].end(),
                                            twice.all<ncf::Bar>()[1].start(), "knee again");
@@ -85,7 +85,7 @@ TEST_CASE("redundant conditions are named, and removed or refused", "[mbs]") {
     CHECK((doubled.multipliers<joints::Joint<2>>(knee) - whole / 2).norm() < 1e-6 * whole.norm());
 }
 
-TEST_CASE("contradictory conditions are refused", "[mbs]") {
+TEST_CASE("contradictory conditions are refused", "[mbs][fault]") {
   PlanarMechanism mechanism = double_pendulum();
   VectorXd elsewhere = mechanism.q();
   elsewhere[0] = 5e-7;  // within the tolerance of each joint alone
@@ -94,7 +94,7 @@ TEST_CASE("contradictory conditions are refused", "[mbs]") {
                        {"contradicts other conditions"}));
 }
 
-TEST_CASE("a coordinate without mass and condition is refused", "[mbs]") {
+TEST_CASE("a coordinate without mass and condition is refused", "[mbs][fault]") {
   PlanarMechanism mechanism = double_pendulum();
   mechanism.add_node(Vector<2>(0, 0));
   CHECK(

@@ -153,7 +153,7 @@ TEMPLATE_LIST_TEST_CASE("particles are the cloud's, with the energy of the equat
   CHECK(particles.bytes() >= 25 * (8 + 4) * sizeof(float));
 }
 
-TEST_CASE("no particles at all are refused", "[particles]") {
+TEST_CASE("no particles at all are refused", "[particles][fault]") {
   const auto text = test::refusal([] {
     sphmbs::particles::Particles<2, double, sphmbs::execution::Serial>(
         Cloud<2>{}, [](double, double) { return 1.0; });

@@ -113,7 +113,7 @@ TEMPLATE_LIST_TEST_CASE("viscous and conducting gas keeps its momentum and energ
 }
 
 TEMPLATE_LIST_TEST_CASE("two particles at one point stay finite and keep momentum and energy",
-                        "[sph]", test::Policies) {
+                        "[sph][fault]", test::Policies) {
   const auto check = []<int Dim>(std::integral_constant<int, Dim>) {
     auto cloud = test::disordered_cloud<Dim>(test::some_hundreds<Dim>, 0.1, 24);
     const std::size_t twin = cloud.size() / 2;

@@ -41,7 +41,7 @@ TEMPLATE_LIST_TEST_CASE("a healthy gas raises no alarm", "[sph]", test::Policies
 }
 
 TEMPLATE_LIST_TEST_CASE("the particle whose energy is not a number is named within one step",
-                        "[sph]", test::Policies) {
+                        "[sph][fault]", test::Policies) {
   for (const std::size_t sick : {0u, 150u, 323u}) {
     auto cloud = some_gas();
     cloud.p[sick] = not_a_number;
@@ -54,7 +54,7 @@ TEMPLATE_LIST_TEST_CASE("the particle whose energy is not a number is named with
 }
 
 TEMPLATE_LIST_TEST_CASE("the particle whose state is not physical is named within one step",
-                        "[sph]", test::Policies) {
+                        "[sph][fault]", test::Policies) {
   const std::size_t sick = 150;
   auto cloud = some_gas();
   SECTION("negative density") { cloud.rho[sick] = -1; }
@@ -71,30 +71,32 @@ TEMPLATE_LIST_TEST_CASE("the particle whose state is not physical is named withi
   CHECK_THAT(failure<TestType>(cloud), Contains("gas particle #150 "));
 }
 
-TEMPLATE_LIST_TEST_CASE("a sick virtual particle is named with its set", "[sph]", test::Policies) {
+TEMPLATE_LIST_TEST_CASE("a sick virtual particle is named with its set", "[sph][fault]",
+                        test::Policies) {
   auto cloud = some_gas();
   for (std::size_t i = 100; i < 200; ++i) cloud.set[i] = 2;
   cloud.p[150] = not_a_number;
   CHECK_THAT(failure<TestType>(cloud), Contains("virtual particle #150 of set 2 "));
 }
 
-TEST_CASE("a failure says when, where and in what state the particle is", "[sph]") {
+TEST_CASE("a failure says when, where and in what state the particle is", "[sph][fault]") {
   auto cloud = some_gas();
   cloud.p[150] = not_a_number;
   const std::string text = failure<sphmbs::execution::Serial>(cloud);
   for (const char* part : {"at step ", "t = ", " at (", "v = (", "rho = ", "e = nan",
                            "h = ", " neighbours", "--cfl", "--step"})
     CHECK_THAT(text, Contains(part));
-  CHECK(text.find('\n') == std::string::npos);
+  for (const char* part : {"\n  gas particle #150", "\n  likely: ", "\n  try: "})
+    CHECK_THAT(text, Contains(part));
 }
 
-TEST_CASE("a failure reads the same for any number of threads", "[sph]") {
+TEST_CASE("a failure reads the same for any number of threads", "[sph][fault]") {
   auto cloud = test::disordered_cloud<2>(60, spacing, 72);
   for (const std::size_t sick : {700u, 1500u, 3100u}) cloud.p[sick] = not_a_number;
   const auto tell = [&] {
     return test::complaint<NumericalFailure>([&] {
       sphmbs::sph::Fluid<test::Gas<2>, sphmbs::execution::Default> fluid({}, test::cube<2>(6, true),
-                                                                        cloud);
+                                                                         cloud);
       sphmbs::time::PredictorCorrector{}.step(fluid, [] { return 1e-6; });
     });
   };
@@ -107,7 +109,8 @@ TEST_CASE("a failure reads the same for any number of threads", "[sph]") {
   }
 }
 
-TEST_CASE("too long a step is a numerical failure, and the advice is to shorten it", "[sph]") {
+TEST_CASE("too long a step is a numerical failure, and the advice is to shorten it",
+          "[sph][fault]") {
   const bool periodic = GENERATE(false, true);
   CAPTURE(periodic);
   sphmbs::sph::Fluid<test::Gas<2>> fluid({}, test::cube<2>(1.8, periodic), some_gas());

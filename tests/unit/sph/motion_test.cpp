@@ -164,7 +164,7 @@ TEST_CASE("driving work balances the energies in viscous gas too", "[sph]") {
   CHECK(fluid.exchange().driving_work() == Approx(gained).epsilon(1e-6));
 }
 
-TEST_CASE("a gas that outgrows its period fails and is not called bad input", "[sph]") {
+TEST_CASE("a gas that outgrows its period fails and is not called bad input", "[sph][fault]") {
   const double dx = 0.05;
   const geometry::Domain<2> domain{.box = {{0, 0}, {0.4, 0.4}}, .periodic = {true, false}};
   const geometry::Lattice<2> lattice{.spacing = dx, .origin = {dx / 2, dx / 2}};

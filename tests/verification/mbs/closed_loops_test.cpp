@@ -250,7 +250,7 @@ TEST_CASE("Bricard's loop moves with its one degree of freedom for ten seconds",
 }
 
 TEST_CASE("redundant conditions of closed loops are refused where asked, contradictory ones always",
-          "[mbs]") {
+          "[mbs][fault]") {
   Bricard model;
   CHECK(test::mentions(test::refusal([&] {
                          Motion system(model.mechanism,

@@ -148,7 +148,7 @@ TEST_CASE("a pendulum on a pivot that moves on a given path follows its equation
 }
 
 TEST_CASE("a mechanism that is driven beyond its reach stops there, in its last good state",
-          "[mbs]") {
+          "[mbs][fault]") {
   Mechanism mechanism;
   mechanism.gravity = {0, -9.81};
   SECTION("two bars of 1 m pulled apart by a winch") {

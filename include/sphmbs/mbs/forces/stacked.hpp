@@ -60,7 +60,8 @@ bool is_zero(const Marker<Dim>& marker) {
 /// @throws NumericalFailure naming the force and the vector, for a vector of no length.
 inline void needs_direction(double length, const std::string& force, const char* vector) {
   if (length != 0) return;
-  throw NumericalFailure(force + ": " + vector + " has no length, and the force no direction");
+  throw NumericalFailure(force + ": " + vector + " has no length, and the force no direction",
+                         "E338");
 }
 
 }  // namespace sphmbs::mbs::forces

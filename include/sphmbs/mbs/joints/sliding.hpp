@@ -22,7 +22,7 @@ namespace sphmbs::mbs::joints {
 
 /// What happens where a slider comes to an end of its rail.
 enum class Ends {
-  event,  // NumericalFailure once a state beyond the end is accepted
+  event,  // BeyondModel once a state beyond the end is accepted
   stop    // a spring and damper pushes it back
 };
 
@@ -143,7 +143,7 @@ class Sliding {
   /// Energy stored in the stops [J].
   double potential(VectorIn q, double) const { return stops(q[sliders()], 0).energy; }
 
-  /// @throws NumericalFailure for a state beyond an end of the rail, or, where there are stops, one
+  /// @throws BeyondModel for a state beyond an end of the rail, or, where there are stops, one
   ///         that has gone through them by the length of an element.
   void accept(const VectorXd& q, double t) const {
     const double s = q[arc_.offset], length = rail_.length();
@@ -156,7 +156,7 @@ class Sliding {
          << " m, the rail is from 0 to " << length << " m; "
          << (stop ? "make `stop` stiffer or the step shorter"
                   : "make the rail longer, end the run earlier, or give it `Ends::stop`");
-    throw NumericalFailure(text.str());
+    throw BeyondModel(text.str(), "E334");
   }
 
   /// @throws InvalidInput for friction or stops out of range.
