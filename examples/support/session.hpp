@@ -19,6 +19,7 @@
 #include <sphmbs/run.hpp>
 #include <sphmbs/version.hpp>
 
+#include "support/crash_report.hpp"
 #include "support/display.hpp"
 #include "support/history.hpp"
 #include "support/output_folder.hpp"
@@ -156,10 +157,15 @@ class Session {
     });
     steps_sent_ -= sent();
     const Schedule schedule{settings_.until, settings_.cfl, step()};
-    const bool ended = sphmbs::run(
-        system_, integrator, schedule,
-        [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling,
-        AtProbes{*this}, tracing, writing);
+    bool ended = false;
+    try {
+      ended = sphmbs::run(
+          system_, integrator, schedule,
+          [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling,
+          AtProbes{*this}, tracing, writing);
+    } catch (const NumericalFailure& failure) {
+      report_failure(failure, checkpoints, show);
+    }
     for (const std::string& name : probes_.names()) written_.push_back(name);
     wall_seconds_ = earlier + seconds_since(begin);
     steps_sent_ += sent();
@@ -301,6 +307,23 @@ class Session {
       steps = "about " + format_count(static_cast<std::int64_t>(settings_.until / dt)) + " steps";
     throw Stopped(0, "checked   " + steps + "; set up and evaluated once in " +
                          format_duration(seconds) + "; preview" + files);
+  }
+
+  // Leaves in the folder `crash` what is around the failure, and the state before the step.
+  template <class Show>
+  [[noreturn]] void report_failure(const NumericalFailure& failure, SessionCheckpoints& checkpoints,
+                                   const Show& show) {
+    std::string text = failure.what();
+    try {
+      auto files = write_crash_report(file("crash"), system_, failure);
+      if constexpr (Undoable<System>) system_.undo();
+      files.push_back(checkpoints.save_in(file("crash"), steps(), show));
+      text += "\n  wrote";
+      for (const auto& path : files) text += " " + path.string();
+    } catch (const Error& error) {
+      text += std::string("\n  no report of it: ") + error.what();
+    }
+    throw NumericalFailure(text, failure.id, failure.particles);
   }
 
   // Ends a run that was asked to end.

@@ -53,6 +53,13 @@ class SessionCheckpoints {
     return {};
   }
 
+  /// Saves the state in another folder. @throws OutputError, RefusedCheckpoint as io::Checkpoints.
+  template <class Show>
+  std::filesystem::path save_in(const std::filesystem::path& folder, std::int64_t step,
+                                const Show& show) const {
+    return io::Checkpoints(folder).write(static_cast<std::uint64_t>(step), identity_, show);
+  }
+
  private:
   io::Checkpoints checkpoints_;
   std::filesystem::path asked_;
