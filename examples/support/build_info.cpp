@@ -58,8 +58,9 @@ std::string flags() {
 
 std::string build_info() {
   const std::string commit = SPHMBS_GIT_ID;
-  return (commit.empty() ? "" : "commit " + commit + " | ") + compiler() + flags() + " | Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." +
-         std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION);
+  return (commit.empty() ? "" : "commit " + commit + " | ") + compiler() + flags() + " | Eigen " +
+         std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
 }
 
 }  // namespace sphmbs::examples
