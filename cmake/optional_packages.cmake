@@ -30,6 +30,7 @@ if(SPHMBS_BUILD_EXAMPLES)
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)
     pkg_check_modules(cairo QUIET IMPORTED_TARGET cairo)
+    pkg_check_modules(tomlplusplus QUIET IMPORTED_TARGET tomlplusplus)
   endif()
 endif()
 if(SPHMBS_BUILD_BENCH)
@@ -39,7 +40,8 @@ if(SPHMBS_BUILD_TESTS)
   find_package(Catch2 QUIET)
 endif()
 
-sphmbs_enable(EXAMPLES CLI11::CLI11 nlohmann_json::nlohmann_json PkgConfig::cairo)
+sphmbs_enable(EXAMPLES CLI11::CLI11 nlohmann_json::nlohmann_json PkgConfig::cairo
+  PkgConfig::tomlplusplus)
 sphmbs_enable(BENCH benchmark::benchmark_main)
 sphmbs_enable(TESTS Catch2::Catch2WithMain)
 

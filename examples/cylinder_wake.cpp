@@ -5,6 +5,7 @@
 
 #include "reference/cylinder_wake_curves.hpp"
 #include "support/backends.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/gas_session.hpp"
 #include "support/guarded_main.hpp"
 #include "support/schemes.hpp"
@@ -19,21 +20,44 @@ struct Wake {
   double upstream = 6;     // from the inlet to the cylinder [m]
   double downstream = 14;  // from the cylinder to the outlet [m]
   double width = 20;       // from one cylinder to the next [m]
+  double gamma = 1.4;
+  double vortex_strength = 0.4;  // of the start [m^2/s]
+  double vortex_radius = 0.7;    // [m]
+  Vec<2> vortex_place{2, 0};     // [m]
+
+  void add(examples::Parameters& parameters) {
+    parameters.add_number("stream.reynolds", reynolds, {.above = 0.0, .at_most = 200.0}, "",
+                          "speed times diameter by kinematic viscosity", "--reynolds");
+    parameters.add_number("stream.mach", mach, {.at_least = 0.05, .at_most = 0.5}, "",
+                          "speed by that of sound", "--mach");
+    parameters.add_number("stream.width", width, {.at_least = 4.0}, "m",
+                          "from one cylinder to the next", "--width");
+    parameters.add_number("stream.upstream", upstream, {.at_least = 2.0}, "m",
+                          "from the inlet to the cylinder");
+    parameters.add_number("stream.downstream", downstream, {.at_least = 4.0}, "m",
+                          "from the cylinder to the outlet");
+    examples::add_gamma(parameters, gamma);
+    parameters.add_number("vortex.strength", vortex_strength, {}, "m^2/s",
+                          "of the vortex behind the cylinder at the start");
+    parameters.add_number("vortex.radius", vortex_radius, {.above = 0.0}, "m",
+                          "of the vortex at the start");
+    parameters.add_vector("vortex.place", vortex_place, {}, "m", "of the vortex at the start");
+  }
 };
 
 /// Frictionless stream of speed 1 m/s around the cylinder with a vortex behind it, which spares the
 /// long time in which a wake loses its symmetry. Pressure and density fit the speeds, so that
 /// little sound is made by the start.
-particles::State<2> start(const particles::State<2>& far, const Vec<2>& r) {
+particles::State<2> start(const Wake& wake, const particles::State<2>& far, const Vec<2>& r) {
   const double square = norm2(r), a = 0.25 / (square * square);
   const Vec<2> around{1 - a * (r[0] * r[0] - r[1] * r[1]), -2 * a * r[0] * r[1]};
-  constexpr double strength = 0.4, radius = 0.7;  // [m^2/s], [m]
-  const Vec<2> d = (1 / radius) * (r - Vec<2>{2, 0});
+  const double strength = wake.vortex_strength, radius = wake.vortex_radius;
+  const Vec<2> d = (1 / radius) * (r - wake.vortex_place);
   const double psi = strength * std::exp(-norm2(d));
   particles::State<2> state = far;
   state.v = around + (2 / radius * psi) * Vec<2>{-d[1], d[0]};
   state.p += 0.5 * far.rho * (1 - norm2(around)) - far.rho * math::power<2>(psi / radius);
-  state.rho *= std::pow(state.p / far.p, 1 / 1.4);
+  state.rho *= std::pow(state.p / far.p, 1 / wake.gamma);
   return state;
 }
 
@@ -61,11 +85,11 @@ void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy 
 
   // What: an ideal gas whose speed of sound and viscosity follow from the two numbers.
   const double c = 1 / wake.mach;
-  const particles::State<2> stream{.rho = 1, .p = c * c / 1.4, .v = {1, 0}};
+  const particles::State<2> stream{.rho = 1, .p = c * c / wake.gamma, .v = {1, 0}};
   particles::Cloud<2> cloud;
   cloud.add_gas(lattice.points(stretch - cylinder, domain), stream, {dx});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const particles::State<2> state = start(stream, cloud.r[i]);
+    const particles::State<2> state = start(wake, stream, cloud.r[i]);
     cloud.v[i] = state.v;
     cloud.p[i] = state.p;
     cloud.m[i] *= state.rho / cloud.rho[i];
@@ -85,12 +109,13 @@ void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy 
   add_opening(inlet, 1);
   add_opening(outlet, -1);
 
-  Gas gas{.eos = {.gamma = 1.4}, .stress = {.viscosity = 1 / wake.reynolds}};
+  Gas gas{.eos = {.gamma = wake.gamma}, .stress = {.viscosity = 1 / wake.reynolds}};
   if constexpr (Gas::Wall::surfaces) gas.background = stream.p;
   sph::Fluid<Gas, Policy, boundary::Fixed, T> fluid(gas, domain, std::move(cloud), {}, policy);
 
   examples::Session session(settings, "cylinder_wake", "wake of a circular cylinder", fluid);
-  session.note("gas", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>());
+  session.note("gas", "2D, ideal gas gamma " + examples::format_exact(wake.gamma) + "; " +
+                          examples::describe<Gas>());
   session.note("stream", "Reynolds number " + examples::format_exact(wake.reynolds) +
                              ", Mach number " + examples::format_exact(wake.mach) + ", cylinders " +
                              examples::format_exact(wake.width) + " D apart");
@@ -100,28 +125,25 @@ void cylinder_wake(const examples::Settings& settings, const Wake& wake, Policy 
                  [&] { return static_cast<double>(fluid.traffic()[0].in.particles); });
   session.record("particles_out", "-",
                  [&] { return static_cast<double>(fluid.traffic()[1].out.particles); });
-  session.run(time::PredictorCorrector{}, std::max(400, static_cast<int>(20 * settings.until)), 4);
+  session.run(time::PredictorCorrector{},
+              settings.samples.value_or(std::max(400, static_cast<int>(20 * settings.until))),
+              settings.fields.value_or(4));
   examples::draw_vorticity(session);
   examples::compare_with_literature(session, wake.reynolds == 100);
   session.finish();
 }
 
 int main(int argc, char** argv) {
-  examples::CommandLine command_line({.name = "cylinder_wake",
-                                      .title = "wake of a circular cylinder in a stream",
-                                      .backends = examples::backends(),
-                                      .precisions = examples::precisions(),
-                                      .defaults = {.spacing = 0.0625, .until = 60, .cfl = 0.4}});
+  examples::Parameters parameters({.name = "cylinder_wake",
+                                   .title = "wake of a circular cylinder in a stream",
+                                   .backends = examples::backends(),
+                                   .precisions = examples::precisions(),
+                                   .defaults = {.spacing = 0.0625, .until = 60, .cfl = 0.4}});
   std::string scheme = "best";
   Wake wake;
-  examples::add_scheme(command_line, scheme);
-  command_line.add_number("--reynolds", wake.reynolds, {.above = 0.0, .at_most = 200.0}, "",
-                          "speed times diameter by kinematic viscosity");
-  command_line.add_number("--mach", wake.mach, {.at_least = 0.05, .at_most = 0.5}, "",
-                          "speed by that of sound");
-  command_line.add_number("--width", wake.width, {.at_least = 4.0}, "m",
-                          "from one cylinder to the next");
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+  examples::add_scheme(parameters, scheme);
+  wake.add(parameters);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       using Paper = sph::RiemannSph<kernels::QuinticSpline<2>, riemann::Acoustic, eos::IdealGas,
                                     sph::Newtonian>;

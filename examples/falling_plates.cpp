@@ -12,13 +12,52 @@
 #include "reference/falling_plates_curves.hpp"
 #include "support/backends.hpp"
 #include "support/coupled_session.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/guarded_main.hpp"
+#include "support/reference_case.hpp"
 #include "support/schemes.hpp"
 
 using namespace sphmbs;
 using namespace sphmbs::mbs;
 
+/// Place and material of the plates, and the air.
+struct Case {
+  Vec<3> corner{3, 1.5, 5};       // of plate I, the one with the smallest coordinates [m]
+  double side = 2;                // of each plate [m]
+  double thickness = 2e-3;        // [m]
+  double density = 1000;          // [kg/m^3]
+  double youngs_modulus = 1.0e7;  // [Pa]
+  double poisson_ratio = 0.3;
+  Vec<3> gravity{0, 0, -9.81};  // [m/s^2]
+  Vec<3> channel{10, 5, 7};     // [m]
+  examples::StillGas air{.density = 1.293, .pressure = 1e4};
+
+  void add(examples::Parameters& parameters) {
+    const auto add = [&](const char* key, double& value, const char* unit, const char* meaning) {
+      parameters.add_number(key, value, {.above = 0.0}, unit, meaning);
+    };
+    parameters.add_vector("plates.corner", corner, {}, "m", "of plate I, nearest to the origin");
+    add("plates.side", side, "m", "of each square plate");
+    add("plates.thickness", thickness, "m", "of the plates");
+    add("plates.density", density, "kg/m^3", "of the plates");
+    add("plates.youngs_modulus", youngs_modulus, "Pa", "of the plates");
+    parameters.add_number("plates.poisson_ratio", poisson_ratio, {.above = -1.0, .below = 0.5}, "",
+                          "of the plates");
+    parameters.add_vector("forces.gravity", gravity, {}, "m/s^2", "acceleration by weight");
+    parameters.add_vector("channel.size", channel, {.above = 0.0}, "m", "of the channel of air");
+    examples::add_still_gas(parameters, air);
+  }
+  void check() const {
+    const Vec<3> far = corner + Vec<3>{2 * side, side, 0};
+    for (int k = 0; k < 3; ++k)
+      examples::require(corner[k] > 0 && far[k] < channel[k], "channel.size", channel[k],
+                        "so large that the plates lie inside the channel");
+  }
+  bool operator==(const Case&) const = default;
+};
+
 struct Options {
+  Case data{};
   int elements = 10;
   std::string scheme = "paper";
   std::string coupling = "strong";  // the plates' corners are lighter than the air at them
@@ -28,16 +67,17 @@ struct Options {
 /// The two plates, in a row along x, and their hinges: three points of the edge of plate I on the
 /// ground, and three between the plates.
 struct Plates {
-  static constexpr double side = 2;  // [m]
   static constexpr const char* grounded[] = {"A", "B", "C"};
   static constexpr const char* between[] = {"D", "E", "F"};
   using Mechanism = Structure<ancf::Plate36, joints::Joint<3>>;
 
-  explicit Plates(int elements)
-      : I(plate(elements, {3, 1.5, 5})),
-        II(plate(elements, {3 + side, 1.5, 5})),
-        P(II.point(side, side / 2)) {
-    mechanism.gravity = {0, 0, -9.81};  // [m/s^2]
+  Plates(const Case& given, int elements)
+      : data(given),
+        I(plate(elements, {data.corner[0], data.corner[1], data.corner[2]})),
+        II(plate(elements, {data.corner[0] + data.side, data.corner[1], data.corner[2]})),
+        P(II.point(data.side, data.side / 2)) {
+    mechanism.gravity = {data.gravity[0], data.gravity[1], data.gravity[2]};
+    const double side = data.side;
     for (int k = 0; k < 3; ++k) {
       const double y = k * side / 2;
       mechanism.add(joints::pinned(I.point(0, y), mechanism.q(), grounded[k]));
@@ -49,7 +89,10 @@ struct Plates {
   template <class System>
   void record(examples::Session<System>& session, int elements) {
     const std::string n = std::to_string(elements);
-    session.note("plates", "two of " + n + " x " + n + " ANCF elements, 2 m x 2 m x 2 mm");
+    session.note("plates", "two of " + n + " x " + n + " ANCF elements, " +
+                               examples::format_exact(data.side) + " m x " +
+                               examples::format_exact(data.side) + " m x " +
+                               examples::format_exact(1e3 * data.thickness) + " mm");
     examples::trace_point(session, "P", P, "xz");
     examples::trace_velocity(session, "P", P, "xz");
     session.record("P_y", "m",
@@ -62,6 +105,7 @@ struct Plates {
     }
   }
 
+  Case data;
   Mechanism mechanism;
   ancf::Grid<ancf::Plate36> I, II;
   Marker<3> P;  // middle of the free edge
@@ -69,52 +113,67 @@ struct Plates {
  private:
   ancf::Grid<ancf::Plate36> plate(int elements, const Vector<3>& corner) {
     return ancf::grid(mechanism, {.origin = corner,
-                                  .edge_x = {side, 0, 0},
-                                  .edge_y = {0, side, 0},
+                                  .edge_x = {data.side, 0, 0},
+                                  .edge_y = {0, data.side, 0},
                                   .elements = {elements, elements},
-                                  .plate = {.thickness = 2e-3,        // [m]
-                                            .density = 1000,          // [kg/m^3]
-                                            .youngs_modulus = 1.0e7,  // [Pa]
-                                            .poisson_ratio = 0.3}});
+                                  .plate = {.thickness = data.thickness,
+                                            .density = data.density,
+                                            .youngs_modulus = data.youngs_modulus,
+                                            .poisson_ratio = data.poisson_ratio}});
   }
 };
 
 void without_air(examples::Settings settings, const Options& options) {
   if (!settings.step) settings.step = 5e-4;
-  Plates plates(options.elements);
+  Plates plates(options.data, options.elements);
   Dynamics<Plates::Mechanism, solvers::SparseLDLT> system(plates.mechanism);
   examples::Session session(settings, "falling_plates", "two hinged plates", system);
   plates.record(session, options.elements);
   session.note("air", "none (--no-air)");
-  session.run(examples::integrator_of(settings), 200, 50);
-  examples::compare_with_reference(session, options.elements);
+  const bool known = options.data == Case{};
+  examples::note_reference(session, known);
+  session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
+  examples::compare_if(known, session,
+                       [&] { examples::compare_with_reference(session, options.elements); });
   session.finish();
 }
 
 template <class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
-  const auto whole = [dx](double length) {
-    return std::abs(length / dx - std::round(length / dx)) < 1e-6;
-  };
-  examples::require(dx <= 0.2 + 1e-9 && whole(1) && !whole(0.5), "--spacing", dx,
-                    "1 m by an odd number, at least 5: 0.2, 0.111111 or 0.0666667 are the paper's");
-  examples::require_memory(350 / (dx * dx * dx), dx);
-  Plates plates(options.elements);
+  const Case& data = options.data;
+  data.check();
+  const double side = data.side, x = data.corner[0], y = data.corner[1], z = data.corner[2];
+  // Plates lie on the lattice, and their sides run midway between its points.
+  bool fits =
+      dx <= side / 10 + 1e-9 && !examples::is_whole(y, dx) && !examples::is_whole(y + side, dx);
+  for (const double length : {data.channel[0], data.channel[1], data.channel[2], side, x, z})
+    fits = fits && examples::is_whole(length, dx);
+  examples::require(
+      fits, "--spacing", dx,
+      data == Case{}
+          ? "1 m by an odd number, at least 5: 0.2, 0.111111 or 0.0666667 are the paper's"
+          : "at most a tenth of a plate's side, and a whole fraction of it, of the channel's sides "
+            "and "
+            "of x and z of the corner, but not of its y");
+  examples::require_memory(data.channel[0] * data.channel[1] * data.channel[2] / (dx * dx * dx),
+                           dx);
+  Plates plates(options.data, options.elements);
   const VectorXd q = plates.mechanism.q();
 
   // Where: a channel, periodic along x, whose walls' faces belong to the gas's lattice.
-  const geometry::Box<3> channel{.lower = {0, 0, 0}, .upper = {10, 5, 7}};
+  const geometry::Box<3> channel{.lower = {0, 0, 0}, .upper = data.channel};
   const geometry::Domain<3> domain{.box = channel, .periodic = {true, false, false}};
   const geometry::Lattice<3> lattice{.spacing = dx, .origin = {0, 0, 0}};
 
   // What: air; walls of four layers; and in place of the lattice's points that the plates cover one
   // layer of virtual particles that rides on them, which gas on both sides sees, or in the best
   // scheme layers for each side.
-  const particles::State<3> still{.rho = 1.293, .p = 1e4};  // [kg/m^3], [Pa]
-  const geometry::Box<3> sheet{.lower = {3 - dx / 2, 1.5, 5 - dx / 2},
-                               .upper = {7 + dx / 2, 3.5, 5 + dx / 2}};
-  const geometry::Box<3> between{.lower = {-100, 0, 0}, .upper = {200, 5, 7}};
+  const particles::State<3> still = data.air.state<3>();
+  const geometry::Box<3> sheet{.lower = {x - dx / 2, y, z - dx / 2},
+                               .upper = {x + 2 * side + dx / 2, y + side, z + dx / 2}};
+  const geometry::Box<3> between{.lower = {-10 * data.channel[0], 0, 0},
+                                 .upper = {20 * data.channel[0], data.channel[1], data.channel[2]}};
   particles::Cloud<3> cloud;
   cloud.add_gas(lattice.inner_points(channel.grown(dx / 2) - sheet, domain, dx), still, {dx});
   cloud.add_virtual(
@@ -136,46 +195,56 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
     for (const int set : own) surface.tie(cloud, set, coupling::points_of(plate, q, cloud, set), q);
     return own;
   };
-  const double hinge = 3 + Plates::side + dx / 2;  // particles on it ride on plate I
-  const std::vector<int> sets_I = wet(plates.I, 0, hinge), sets_II = wet(plates.II, hinge, 10);
+  const double hinge = x + side + dx / 2;  // particles on it ride on plate I
+  const std::vector<int> sets_I = wet(plates.I, 0, hinge),
+                         sets_II = wet(plates.II, hinge, data.channel[0]);
 
-  const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, 0, -9.81}, .background = still.p};
+  const Gas gas{
+      .eos = {.gamma = data.air.gamma}, .acceleration = data.gravity, .background = still.p};
   sph::Fluid<Gas, Policy, coupling::Riding<3>, T> fluid(gas, domain, std::move(cloud),
                                                         surface.motion(), policy);
   Dynamics<Plates::Mechanism, solvers::SparseLDLT> bodies(plates.mechanism);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "falling_plates", "two hinged plates in air", system);
   plates.record(session, options.elements);
-  session.note("air", "3D, ideal gas gamma 1.4; " + examples::describe<Gas>() + "; coupling " +
-                          options.coupling);
+  const bool known = data == Case{};
+  examples::note_reference(session, known);
+  session.note("air", "3D, ideal gas gamma " + examples::format_exact(data.air.gamma) + "; " +
+                          examples::describe<Gas>() + "; coupling " + options.coupling);
   for (const auto& [name, plate, sets] :
        {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)}) {
-    examples::record_gas_load(session, name, sets, plate.point(Plates::side / 2, Plates::side / 2));
+    examples::record_gas_load(session, name, sets, plate.point(side / 2, side / 2));
     examples::record_total_force(session, name, plate.elements);
   }
-  examples::with_coupling(options.coupling, settings,
-                          [&](const auto& scheme) { session.run(scheme, 200, 20); });
-  examples::compare_with_motion_without_air(session, options.elements);
+  examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
+    session.run(scheme, *settings.samples, settings.fields.value_or(20));
+  });
+  examples::compare_if(known, session, [&] {
+    examples::compare_with_motion_without_air(session, options.elements);
+  });
   session.finish();
 }
 
 int main(int argc, char** argv) {
   Options options;
-  examples::CommandLine command_line(
+  examples::Parameters parameters(
       {.name = "falling_plates",
        .title = "two hinged flexible plates that fall and swing in air",
        .backends = examples::backends(),
        .precisions = examples::precisions(),
-       .defaults = {.spacing = 0.2, .until = 1, .cfl = 0.4},
+       .defaults = {.spacing = 0.2, .until = 1, .cfl = 0.4, .samples = 200},
        .gas = true,
-       .structure = true});
-  command_line.add_whole_number("--elements", options.elements, {.at_least = 2, .at_most = 100}, "",
-                                "elements along each side of a plate");
-  command_line.add_flag("--no-air", options.no_air,
-                        "the bodies alone, by fixed steps of 5e-4 s where --step says no other");
-  examples::add_scheme(command_line, options.scheme);
-  examples::add_coupling(command_line, options.coupling);
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+       .structure = true,
+       .dim = 3});
+  parameters.add_whole_number("plates.elements", options.elements, {.at_least = 2, .at_most = 100},
+                              "", "elements along each side of a plate", "--elements");
+  parameters.add_flag("run.no_air", options.no_air,
+                      "the bodies alone, by fixed steps of 5e-4 s where --step says no other",
+                      "--no-air");
+  options.data.add(parameters);
+  examples::add_scheme(parameters, options.scheme);
+  examples::add_coupling(parameters, options.coupling);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     if (options.no_air)
       return examples::with_host_backend(settings,
                                          [&](const auto& s, auto) { without_air(s, options); });

@@ -8,6 +8,7 @@
 #include "reference/lagrange_gun_curves.hpp"
 #include "support/backends.hpp"
 #include "support/coupled_session.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/guarded_main.hpp"
 #include "support/piston.hpp"
 #include "support/schemes.hpp"
@@ -17,13 +18,34 @@ constexpr int dim = GUN_DIM;
 const std::string case_name = dim == 1 ? "lagrange_gun" : "lagrange_gun_2d";
 const std::string title = "Lagrange's gun in " + std::to_string(dim) + "D";
 
+struct Gun {
+  double mass = 1;    // of the piston [kg/m^2]
+  double length = 3;  // of the gas at the start [m]
+  double way = 4;     // from the start of the piston to the end of the tube [m]
+  examples::StillGas gas{};
+
+  void add(examples::Parameters& parameters) {
+    parameters.add_number("piston.mass", mass, {.above = 0.0}, "kg/m^2", "of the piston");
+    parameters.add_number("tube.gas_length", length, {.above = 0.0}, "m",
+                          "of the gas behind the piston at the start");
+    parameters.add_number("tube.way", way, {.above = 0.0}, "m",
+                          "from the start of the piston to the end of the tube");
+    examples::add_still_gas(parameters, gas);
+  }
+  /// When the expansion reaches the far end of the gas, rounded down to tenths [s].
+  double latest() const { return std::floor(10 * length / gas.sound_speed()) / 10; }
+};
+
 template <class Gas, class T, class Policy>
-void lagrange_gun(const examples::Settings& settings, const std::string& coupling, Policy policy) {
-  const double dx = settings.spacing, length = 3;
-  examples::require(dx <= 0.1 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
-                    "--spacing", dx, "a whole fraction of 3 m, and at most 0.1 m");
-  examples::require(settings.until <= 2.5, "--until", settings.until,
-                    "at most 2.5 s, when the expansion comes back from the far end");
+void lagrange_gun(const examples::Settings& settings, const Gun& data, const std::string& coupling,
+                  Policy policy) {
+  const double dx = settings.spacing, length = data.length;
+  examples::require(dx <= length / 30 && examples::is_whole(length, dx), "--spacing", dx,
+                    "a whole fraction of " + examples::length_text(length) + ", and at most " +
+                        examples::length_text(length / 30));
+  examples::require(settings.until <= data.latest(), "--until", settings.until,
+                    "at most " + examples::format_exact(data.latest()) +
+                        " s, when the expansion comes back from the far end");
   examples::require_memory(length / dx * (dim > 1 ? 10 : 1), dx);
 
   // Where: a tube along x, periodic across, closed at -3 m. The piston begins at 0.
@@ -34,7 +56,7 @@ void lagrange_gun(const examples::Settings& settings, const std::string& couplin
     box.upper[0] = to;
     return box;
   };
-  geometry::Domain<dim> domain{.box = stretch(-length - 1, 4)};
+  geometry::Domain<dim> domain{.box = stretch(-length - 1, data.way)};
   if (dim > 1) domain.periodic[dim - 1] = true;
   const geometry::Lattice<dim> lattice{.spacing = dx, .origin = Vec<dim>::all(dx / 2)};
 
@@ -45,7 +67,7 @@ void lagrange_gun(const examples::Settings& settings, const std::string& couplin
     if (dim > 1) box.lower[dim - 1] = -100, box.upper[dim - 1] = 100;
     return box;
   };
-  const particles::State<dim> still{.rho = 1, .p = 1};
+  const particles::State<dim> still = data.gas.state<dim>();
   particles::Cloud<dim> cloud;
   cloud.add_gas(lattice.points(stretch(-length, 0), domain), still, {dx});
   cloud.add_virtual(lattice.points(stretch(-length - layers, -length), domain), still, {dx},
@@ -54,44 +76,55 @@ void lagrange_gun(const examples::Settings& settings, const std::string& couplin
       cloud.add_virtual(lattice.points(stretch(0, layers), domain), still, {dx}, solid(0, 1));
 
   mbs::Structure<examples::Piston> gun;
-  const auto piston = gun.add(examples::Piston{.mass = width});
+  const auto piston = gun.add(examples::Piston{.mass = data.mass * width});
   coupling::WettedSurface<dim, Policy> surface;
   surface.tie(cloud, face, coupling::points_beside(piston.point({0, 0}), gun.q(), cloud, face),
               gun.q());
   sph::Fluid<Gas, Policy, coupling::Riding<dim>, T> fluid(
-      Gas{.eos = {.gamma = 1.4}}, domain, std::move(cloud), surface.motion(), policy);
+      Gas{.eos = {.gamma = data.gas.gamma}}, domain, std::move(cloud), surface.motion(), policy);
   mbs::Dynamics<decltype(gun), mbs::solvers::SparseLU> bodies(gun);
   coupling::Immersed system(fluid, bodies, surface);
 
   examples::Session session(settings, case_name, title, system);
-  session.note("gas", "ideal gas gamma 1.4; " + examples::describe<Gas>());
-  session.note("piston", "1 kg/m^2, free; coupling " + coupling);
+  session.note("gas", "ideal gas gamma " + examples::format_exact(data.gas.gamma) + "; " +
+                          examples::describe<Gas>());
+  session.note("piston", examples::format_exact(data.mass) + " kg/m^2, free; coupling " + coupling);
   session.record("way", "m", [&] { return bodies.state().q[0]; });
   session.record("speed", "m/s", [&] { return bodies.state().v[0]; });
   session.record("face_pressure", "Pa", [&] { return fluid.force_on(face)[0] / width; });
-  examples::with_coupling(coupling, settings,
-                          [&](const auto& scheme) { session.run(scheme, 200, 4); });
-  examples::compare_with_exact(
-      session, {.mass = 1, .pressure = 1, .sound_speed = std::sqrt(1.4), .gamma = 1.4});
+  examples::with_coupling(coupling, settings, [&](const auto& scheme) {
+    session.run(scheme, *settings.samples, *settings.fields);
+  });
+  examples::compare_with_exact(session, {.mass = data.mass,
+                                         .pressure = data.gas.pressure,
+                                         .sound_speed = data.gas.sound_speed(),
+                                         .gamma = data.gas.gamma});
   session.finish();
 }
 
 int main(int argc, char** argv) {
-  examples::CommandLine command_line(
-      {.name = case_name,
-       .title = title,
-       .backends = examples::backends(),
-       .precisions = examples::precisions(),
-       .defaults = {.spacing = 0.0075, .until = 1, .cfl = 0.4, .threads = dim == 1 ? 1 : 2},
-       .gas = true,
-       .structure = true});
+  examples::Parameters parameters({.name = case_name,
+                                   .title = title,
+                                   .backends = examples::backends(),
+                                   .precisions = examples::precisions(),
+                                   .defaults = {.spacing = 0.0075,
+                                                .until = 1,
+                                                .cfl = 0.4,
+                                                .threads = dim == 1 ? 1 : 2,
+                                                .fields = 4,
+                                                .samples = 200},
+                                   .gas = true,
+                                   .structure = true,
+                                   .dim = dim});
   std::string scheme = "best", coupling = "strong";
-  examples::add_scheme(command_line, scheme);
-  examples::add_coupling(command_line, coupling);
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+  Gun gun;
+  examples::add_scheme(parameters, scheme);
+  examples::add_coupling(parameters, coupling);
+  gun.add(parameters);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<dim>, sph::SmoothScheme<dim>>(
-          scheme, [&]<class Gas>() { lagrange_gun<Gas, T>(s, coupling, policy); });
+          scheme, [&]<class Gas>() { lagrange_gun<Gas, T>(s, gun, coupling, policy); });
     });
   });
 }

@@ -15,13 +15,57 @@
 #include "reference/pendulum_on_cable_curves.hpp"
 #include "support/backends.hpp"
 #include "support/coupled_session.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/guarded_main.hpp"
+#include "support/reference_case.hpp"
 #include "support/schemes.hpp"
 
 using namespace sphmbs;
 using namespace sphmbs::mbs;
 
+/// Places, materials and air; B is left of P, and C below B.
+struct Case {
+  Vec<2> O{2.98, 6.5}, P{7, 6.5};  // ends of the cable [m]
+  double radius = 0.0015;          // of the cable [m]
+  double density = 5208.39;        // of the cable [kg/m^3]
+  double youngs_modulus = 2.0e11;  // of the cable [Pa]
+  double AB = 1, BC = 1;           // lengths of the bars [m]
+  double side = 0.0874;            // of the bars' section [m]
+  double bar_density = 349.45;     // [kg/m^3]
+  Vec<2> gravity{0, -9.81};        // [m/s^2]
+  Vec<2> room{10, 10};             // [m]
+  examples::StillGas air{.density = 1.293, .pressure = 1e4};
+
+  void add(examples::Parameters& parameters) {
+    const auto add = [&](const char* key, double& value, const char* unit, const char* meaning) {
+      parameters.add_number(key, value, {.above = 0.0}, unit, meaning);
+    };
+    parameters.add_vector("cable.from", O, {}, "m", "pinned end O of the cable");
+    parameters.add_vector("cable.to", P, {}, "m",
+                          "pinned end P, where the pendulum hangs at first");
+    add("cable.radius", radius, "m", "of the cable's section");
+    add("cable.density", density, "kg/m^3", "of the cable");
+    add("cable.youngs_modulus", youngs_modulus, "Pa", "of the cable");
+    add("bars.AB", AB, "m", "length of the first bar, level at the start");
+    add("bars.BC", BC, "m", "length of the second bar, upright at the start");
+    add("bars.side", side, "m", "of the bars' square section");
+    add("bars.density", bar_density, "kg/m^3", "of the bars");
+    parameters.add_vector("forces.gravity", gravity, {}, "m/s^2", "acceleration by weight");
+    parameters.add_vector("room.size", room, {.above = 0.0}, "m", "length and height of the room");
+    examples::add_still_gas(parameters, air);
+  }
+  void check() const {
+    const Vec<2> sizes[] = {O, P, P - Vec<2>{AB, BC}};
+    for (const Vec<2>& r : sizes)
+      for (int k = 0; k < 2; ++k)
+        examples::require(r[k] > 0 && r[k] < room[k], "room.size", room[k],
+                          "so large that cable and bars lie inside the room");
+  }
+  bool operator==(const Case&) const = default;
+};
+
 struct Options {
+  Case data{};
   int elements = 24;
   std::string measure = "green";
   std::string scheme = "paper";
@@ -36,19 +80,21 @@ struct Pendulum {
   using Sliding = joints::Sliding<Cable>;
   using Mechanism = Structure<Cable, ncf::Bar, joints::Joint<2>, Sliding>;
 
-  static constexpr double side = 0.0874;                          // of the bars' section [m]
-  const Vector<2> O{2.98, 6.5}, P{7, 6.5}, B{6, 6.5}, C{6, 5.5};  // [m]
+  const Case data;
+  const Vector<2> O{data.O[0], data.O[1]}, P{data.P[0], data.P[1]};
+  const Vector<2> B{P[0] - data.AB, P[1]}, C{B[0], B[1] - data.BC};
 
-  explicit Pendulum(int elements)
-      : cable(ancf::line(mechanism, {.from = O,
+  Pendulum(const Case& given, int elements)
+      : data(given),
+        cable(ancf::line(mechanism, {.from = O,
                                      .to = P,
                                      .elements = elements,
-                                     .radius = 0.0015,             // [m]
-                                     .density = 5208.39,           // [kg/m^3]
-                                     .youngs_modulus = 2.0e11})),  // [Pa]
+                                     .radius = data.radius,
+                                     .density = data.density,
+                                     .youngs_modulus = data.youngs_modulus})),
         AB(bar(P, B)),
         BC(bar(B, C)) {
-    mechanism.gravity = {0, -9.81};  // [m/s^2]
+    mechanism.gravity = {data.gravity[0], data.gravity[1]};
     pin_O = mechanism.add(joints::pinned(cable.start(), mechanism.q(), "O"));
     pin_P = mechanism.add(joints::pinned(cable.end(), mechanism.q(), "P"));
     mechanism.add(joints::revolute(AB.end(), BC.start(), "B"));
@@ -78,43 +124,54 @@ struct Pendulum {
 
  private:
   Placed<ncf::Bar> bar(const Vector<2>& from, const Vector<2>& to) {
-    return mechanism.add(
-        ncf::Bar{.from = from, .to = to, .density = 349.45, .area = side * side, .height = side});
+    return mechanism.add(ncf::Bar{.from = from,
+                                  .to = to,
+                                  .density = data.bar_density,
+                                  .area = data.side * data.side,
+                                  .height = data.side});
   }
 };
 
 template <class Measure>
 void without_air(examples::Settings settings, const Options& options) {
   if (!settings.step) settings.step = 2.5e-4;
-  Pendulum<Measure> pendulum(options.elements);
+  Pendulum<Measure> pendulum(options.data, options.elements);
   Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT> system(pendulum.mechanism);
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable", system);
   pendulum.record(session, options);
   session.note("air", "none (--no-air)");
-  session.run(examples::integrator_of(settings), 400, 50);
-  examples::compare_with_reference(session, options.measure);
+  const bool known = options.data == Case{};
+  examples::note_reference(session, known);
+  session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
+  examples::compare_if(known, session,
+                       [&] { examples::compare_with_reference(session, options.measure); });
   session.finish();
 }
 
 template <class Measure, class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
-  for (const double length : {10.0, 1.0, 0.5})
-    examples::require(dx <= 0.1 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
-                      "--spacing", dx, "a whole fraction of 0.5 m, and at most 0.1 m");
-  examples::require_memory(100 / (dx * dx), dx);
-  Pendulum<Measure> pendulum(options.elements);
+  const Case& data = options.data;
+  data.check();
+  for (const double length : {data.room[0], data.room[1], data.P[0], data.P[1], data.AB, data.BC})
+    examples::require(dx <= 0.1 * std::min(data.AB, data.BC) && examples::is_whole(length, dx),
+                      "--spacing", dx,
+                      data == Case{} ? "a whole fraction of 0.5 m, and at most 0.1 m"
+                                     : "a whole fraction of the room's sides, the coordinates of P "
+                                       "and the bars' lengths, and at most a tenth of these");
+  examples::require_memory(data.room[0] * data.room[1] / (dx * dx), dx);
+  Pendulum<Measure> pendulum(options.data, options.elements);
   const VectorXd q = pendulum.mechanism.q();
 
   // Where: a room, periodic along x, whose floor and ceiling belong to the gas's lattice.
-  const geometry::Box<2> room{.lower = {0, 0}, .upper = {10, 10}};
+  const geometry::Box<2> room{.lower = {0, 0}, .upper = data.room};
   const geometry::Domain<2> domain{.box = room, .periodic = {true, false}};
   const geometry::Lattice<2> lattice{.spacing = dx, .origin = {0, 0}};
 
   // What: air; walls of four layers; and on each bar, in place of the lattice's points that it
   // covers but its ends, virtual particles that ride on it: a file of them, which gas on both sides
   // sees, or in the best scheme layers for each side.
-  const particles::State<2> still{.rho = 1.293, .p = 1e4};  // [kg/m^3], [Pa]
+  const particles::State<2> still = data.air.state<2>();
   const auto file = [&](const Vector<2>& from, const Vector<2>& to) {
     const int pieces = static_cast<int>(std::lround((to - from).norm() / dx));
     std::vector<Vec<2>> points;
@@ -130,7 +187,8 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
     return std::any_of(on_AB.begin(), on_AB.end(), near) ||
            std::any_of(on_BC.begin(), on_BC.end(), near);
   };
-  const geometry::Box<2> between{.lower = {-100, 0}, .upper = {200, 10}};
+  const geometry::Box<2> between{.lower = {-10 * data.room[0], 0},
+                                 .upper = {20 * data.room[0], data.room[1]}};
   std::vector<Vec<2>> air = lattice.points(room.grown(dx / 2), domain, dx);
   std::erase_if(air, covered);
   particles::Cloud<2> cloud;
@@ -149,7 +207,7 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
       sets = {cloud.add_virtual(points, still, {dx})};
     }
     for (const int set : sets)
-      surface.tie(cloud, set, coupling::points_of(bar, q, cloud, set), q, Pendulum<Measure>::side);
+      surface.tie(cloud, set, coupling::points_of(bar, q, cloud, set), q, data.side);
     return sets;
   };
   const std::vector<int> sets_AB = wet(pendulum.AB, on_AB, {0, 1});
@@ -157,7 +215,8 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
 
   // Without a background pressure the gas presses on the bars where the other one, at the hinge, is
   // in its place: with 20 N at 0.1 m, three quarters of a bar's weight.
-  const Gas gas{.eos = {.gamma = 1.4}, .acceleration = {0, -9.81}, .background = still.p};
+  const Gas gas{
+      .eos = {.gamma = data.air.gamma}, .acceleration = data.gravity, .background = still.p};
   sph::Fluid<Gas, Policy, coupling::Riding<2>, T> fluid(gas, domain, std::move(cloud),
                                                         surface.motion(), policy);
   Dynamics<typename Pendulum<Measure>::Mechanism, solvers::SparseLDLT> bodies(pendulum.mechanism);
@@ -165,8 +224,11 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable in air",
                             system);
   pendulum.record(session, options);
-  session.note("air", "2D, ideal gas gamma 1.4; " + examples::describe<Gas>() + "; bars " +
-                          examples::format_exact(Pendulum<Measure>::side) + " m deep; coupling " +
+  const bool known = data == Case{};
+  examples::note_reference(session, known);
+  session.note("air", "2D, ideal gas gamma " + examples::format_exact(data.air.gamma) + "; " +
+                          examples::describe<Gas>() + "; bars " +
+                          examples::format_exact(data.side) + " m deep; coupling " +
                           options.coupling);
   for (const auto& [name, bar, sets] :
        {std::tuple("AB", pendulum.AB, sets_AB), std::tuple("BC", pendulum.BC, sets_BC)}) {
@@ -174,30 +236,35 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
     examples::record_gas_load(session, name, sets, middle);
     examples::record_total_force(session, name, std::vector{bar});
   }
-  examples::with_coupling(options.coupling, settings,
-                          [&](const auto& scheme) { session.run(scheme, 400, 20); });
-  examples::compare_with_motion_without_air(session, options.measure);
+  examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
+    session.run(scheme, *settings.samples, settings.fields.value_or(20));
+  });
+  examples::compare_if(
+      known, session, [&] { examples::compare_with_motion_without_air(session, options.measure); });
   session.finish();
 }
 
 int main(int argc, char** argv) {
   Options options;
-  examples::CommandLine command_line({.name = "pendulum_on_cable",
-                                      .title = "double pendulum that slides along a cable in air",
-                                      .backends = examples::backends(),
-                                      .precisions = examples::precisions(),
-                                      .defaults = {.spacing = 0.05, .until = 1, .cfl = 0.4},
-                                      .gas = true,
-                                      .structure = true});
-  command_line.add_whole_number("--elements", options.elements, {.at_least = 2, .at_most = 1000},
-                                "", "number of elements of the cable");
-  command_line.add_choice("--measure", options.measure, {"green", "engineering"},
-                          "strain measure of the cable");
-  command_line.add_flag("--no-air", options.no_air,
-                        "the bodies alone, by fixed steps of 2.5e-4 s where --step says no other");
-  examples::add_scheme(command_line, options.scheme);
-  examples::add_coupling(command_line, options.coupling);
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+  examples::Parameters parameters(
+      {.name = "pendulum_on_cable",
+       .title = "double pendulum that slides along a cable in air",
+       .backends = examples::backends(),
+       .precisions = examples::precisions(),
+       .defaults = {.spacing = 0.05, .until = 1, .cfl = 0.4, .samples = 400},
+       .gas = true,
+       .structure = true});
+  parameters.add_whole_number("cable.elements", options.elements, {.at_least = 2, .at_most = 1000},
+                              "", "number of elements of the cable", "--elements");
+  parameters.add_choice("cable.measure", options.measure, {"green", "engineering"},
+                        "strain measure of the cable", "--measure");
+  parameters.add_flag("run.no_air", options.no_air,
+                      "the bodies alone, by fixed steps of 2.5e-4 s where --step says no other",
+                      "--no-air");
+  options.data.add(parameters);
+  examples::add_scheme(parameters, options.scheme);
+  examples::add_coupling(parameters, options.coupling);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     const auto with_measure = [&](const auto& simulate) {
       if (options.measure == "green")
         simulate.template operator()<ancf::Green>();

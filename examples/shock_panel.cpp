@@ -13,6 +13,7 @@
 #include "reference/shock_panel_curves.hpp"
 #include "support/backends.hpp"
 #include "support/coupled_session.hpp"
+#include "support/gas_parameters.hpp"
 #include "support/guarded_main.hpp"
 #include "support/schemes.hpp"
 
@@ -24,11 +25,55 @@ struct Setup {
   double end = 0.265;      // where the channel is closed
   double opening = -0.35;  // where gas comes in, as it is behind the shock
   double shock = -0.05;    // at the start
-  particles::State<2> ahead{.rho = 1.1886, .p = 1e5};  // [kg/m^3], [Pa]
-  double stiffness = 2.2e11 * 1e-9 / 12;               // of the panel, per metre of depth [N m]
+  double mach = 1.21;      // of the shock
+  examples::StillGas ahead{.density = 1.1886, .pressure = 1e5};
+  double length = 0.05;            // of the panel
+  double thickness = 1e-3;         // of the panel
+  double density = 7600;           // of the panel [kg/m^3]
+  double youngs_modulus = 2.2e11;  // of the panel [Pa]
+  double poisson_ratio = 0;        // of the panel across the plane; 0: a beam
+
+  /// Of the panel, per metre of depth [N m].
+  double stiffness() const {
+    return youngs_modulus * std::pow(thickness, 3) / 12 / (1 - poisson_ratio * poisson_ratio);
+  }
+  void add(examples::Parameters& parameters) {
+    parameters.add_number("channel.height", height, {.above = 0.0}, "m", "of the channel");
+    parameters.add_number("channel.end", end, {.at_least = 0.05}, "m",
+                          "where the channel is closed, behind the panel");
+    parameters.add_number("channel.opening", opening, {.at_most = -0.05}, "m",
+                          "where gas comes in, in front of the panel");
+    parameters.add_number("shock.place", shock, {.below = 0.0}, "m",
+                          "of the shock at the start, in front of the panel");
+    parameters.add_number("shock.mach", mach, {.above = 1.0, .at_most = 10.0}, "", "of the shock");
+    examples::add_still_gas(parameters, ahead);
+    const auto add = [&](const char* key, double& value, const char* unit, const char* meaning) {
+      parameters.add_number(key, value, {.above = 0.0}, unit, meaning);
+    };
+    add("panel.length", length, "m", "of the panel, upwards from the floor");
+    add("panel.thickness", thickness, "m", "of the panel");
+    add("panel.density", density, "kg/m^3", "of the panel");
+    add("panel.youngs_modulus", youngs_modulus, "Pa", "of the panel");
+    parameters.add_number("panel.poisson_ratio", poisson_ratio, {.above = -1.0, .below = 0.5}, "",
+                          "of the panel, which is wide; 0 makes it a beam");
+  }
+  void check() const {
+    examples::require(opening < shock, "shock.place", shock, "behind the opening of the channel");
+    examples::require(length < height, "panel.length", length,
+                      "below the height of the channel, " + examples::length_text(height));
+  }
+  bool operator==(const Setup&) const = default;
 };
 
-constexpr double panel_length = 0.05, panel_thickness = 1e-3;  // [m]
+/// The chosen set-up, with what the parameters change of it.
+struct Choice {
+  std::string setup = "reference";
+  Setup own = {};
+  int elements = 12;
+  std::string coupling = "staggered";
+
+  bool known() const { return setup == "reference" && own == Setup{}; }
+};
 
 /// As the reference has it, or as others have computed the experiment.
 Setup setup_named(const std::string& name) {
@@ -36,8 +81,8 @@ Setup setup_named(const std::string& name) {
   return {.height = 0.065,
           .end = 0.25,
           .shock = -0.02,
-          .ahead = {.rho = 1.2, .p = 1.01e5},
-          .stiffness = 2.2e11 * 1e-9 / 12 / (1 - 0.3 * 0.3)};
+          .ahead = {.density = 1.2, .pressure = 1.01e5},
+          .poisson_ratio = 0.3};
 }
 
 /// Gas behind a shock that runs in the direction of x, from the jump conditions.
@@ -60,25 +105,26 @@ struct Channel {
     const geometry::Box<2> inside{.lower = {from, 0}, .upper = {to, setup.height}};
     domain.box = {.lower = {from - deep, 0}, .upper = inside.upper};
     const geometry::Lattice<2> lattice{.spacing = dx, .origin = {0, dx / 2}};
-    const particles::State<2> behind = behind_shock(setup.ahead, 1.21, 1.4);
+    const particles::State<2> ahead = setup.ahead.state<2>();
+    const particles::State<2> behind = behind_shock(ahead, setup.mach, setup.ahead.gamma);
 
     std::vector<Vec<2>> shocked, still, patches;
     for (const Vec<2>& r : lattice.points(inside, domain))
       (r[0] < setup.shock - dx / 4                      ? shocked
-       : std::abs(r[0]) < dx / 4 && r[1] < panel_length ? patches
+       : std::abs(r[0]) < dx / 4 && r[1] < setup.length ? patches
                                                         : still)
           .push_back(r);
     cloud.add_gas(shocked, behind, {dx});
-    cloud.add_gas(still, setup.ahead, {dx});
+    cloud.add_gas(still, ahead, {dx});
     const geometry::Box<2> hollow{.lower = {-100, 0}, .upper = inside.upper};
-    cloud.add_virtual(lattice.points(hollow.grown(deep) - hollow, domain, 2 * deep), setup.ahead,
-                      {dx}, outside(hollow));
+    cloud.add_virtual(lattice.points(hollow.grown(deep) - hollow, domain, 2 * deep), ahead, {dx},
+                      outside(hollow));
     if constexpr (Gas::Wall::surfaces) {
       const auto sides =
-          cloud.add_sheet(patches, std::vector<Vec<2>>(patches.size(), {-1, 0}), setup.ahead, {dx});
+          cloud.add_sheet(patches, std::vector<Vec<2>>(patches.size(), {-1, 0}), ahead, {dx});
       panel = {sides.front, sides.back};
     } else {
-      panel = {cloud.add_virtual(patches, setup.ahead, {dx})};
+      panel = {cloud.add_virtual(patches, ahead, {dx})};
     }
     const geometry::Box<2> zone{.lower = domain.box.lower, .upper = {from, setup.height}};
     cloud.add_opening({.lower = zone.lower,
@@ -88,7 +134,7 @@ struct Channel {
                        .far = behind,
                        .distance = to - from},
                       lattice.points(zone, domain), {dx});
-    gas = {.eos = {.gamma = 1.4}, .background = setup.ahead.p};
+    gas = {.eos = {.gamma = setup.ahead.gamma}, .background = ahead.p};
   }
 
   template <class T, class Motion, class Policy>
@@ -107,8 +153,8 @@ template <class System, class Fluid>
 void record(examples::Session<System>& session, Fluid& fluid, const std::vector<int>& panel,
             double height) {
   const double dx = session.settings().spacing;
-  session.note("gas",
-               "2D, ideal gas gamma 1.4; " + examples::describe<typename Fluid::SchemeType>());
+  session.note("gas", "2D, ideal gas gamma " + examples::format_exact(fluid.scheme().eos.gamma) +
+                          "; " + examples::describe<typename Fluid::SchemeType>());
   for (const int k : {0, 1})
     session.record(std::string("force_") + "xy"[k], "N/m", [&fluid, panel, k] {
       double force = 0;
@@ -126,31 +172,30 @@ void record(examples::Session<System>& session, Fluid& fluid, const std::vector<
 }
 
 template <class Gas, class T, class Policy>
-void rigid_panel(const examples::Settings& settings, const std::string& setup_name, Policy policy) {
-  const Setup setup = setup_named(setup_name);
+void rigid_panel(const examples::Settings& settings, const Choice& choice, const Setup& setup,
+                 Policy policy) {
   Channel<Gas> channel(setup, settings.spacing);
   auto fluid = channel.template fluid<T>(boundary::Fixed{}, policy);
   examples::Session session(settings, "shock_panel", "shock on a rigid panel", fluid);
-  session.note("panel", "rigid (--rigid); set-up " + setup_name);
+  session.note("panel", "rigid (--rigid); set-up " + choice.setup);
   record(session, fluid, channel.panel, setup.height);
-  session.run(time::PredictorCorrector{}, 500, 20);
-  examples::compare_rigid(session, setup_name == "reference");
+  session.run(time::PredictorCorrector{}, *settings.samples, *settings.fields);
+  examples::compare_rigid(session, choice.known());
   session.finish();
 }
 
 template <class Gas, class T, class Policy>
-void flexible_panel(const examples::Settings& settings, const std::string& setup_name, int elements,
-                    const std::string& coupling, Policy policy) {
+void flexible_panel(const examples::Settings& settings, const Choice& choice, const Setup& setup,
+                    Policy policy) {
   using Cable = mbs::ancf::Cable<2>;
-  const Setup setup = setup_named(setup_name);
   mbs::Structure<Cable, mbs::joints::Joint<2>> structure;
-  const auto line =
-      mbs::ancf::line(structure, {.from = {0, 0},
-                                  .to = {0, panel_length},
-                                  .elements = elements,
-                                  .prototype = Cable{.axial_stiffness = 2.2e11 * panel_thickness,
-                                                     .bending_stiffness = setup.stiffness,
-                                                     .mass_per_length = 7600 * panel_thickness}});
+  const auto line = mbs::ancf::line(
+      structure, {.from = {0, 0},
+                  .to = {0, setup.length},
+                  .elements = choice.elements,
+                  .prototype = Cable{.axial_stiffness = setup.youngs_modulus * setup.thickness,
+                                     .bending_stiffness = setup.stiffness(),
+                                     .mass_per_length = setup.density * setup.thickness}});
   const int foot = structure.add(
       mbs::joints::clamped<2>(line.start(), {line.gradient(0)}, structure.q(), "foot"));
 
@@ -163,54 +208,63 @@ void flexible_panel(const examples::Settings& settings, const std::string& setup
   mbs::Dynamics<decltype(structure), mbs::solvers::SparseLDLT> bodies(structure);
   coupling::Immersed system(fluid, bodies, surface);
   examples::Session session(settings, "shock_panel", "shock on a flexible panel", system);
-  session.note("panel", std::to_string(elements) + " ANCF cable elements, clamped; set-up " +
-                            setup_name + "; coupling " + coupling);
+  session.note("panel", std::to_string(choice.elements) + " ANCF cable elements, clamped; set-up " +
+                            choice.setup + "; coupling " + choice.coupling);
   record(session, fluid, channel.panel, setup.height);
   examples::record_gas_load(session, "panel", channel.panel, line.start());
   examples::record_total_force(session, "panel", line.elements);
   examples::record_reaction<mbs::joints::Joint<2>>(session, foot, "force_foot");
   for (const auto& [name, point] :
-       {std::pair("tip", line.end()), std::pair("middle", line.point(panel_length / 2))})
+       {std::pair("tip", line.end()), std::pair("middle", line.point(setup.length / 2))})
     for (const int k : {0, 1})
       session.record(std::string(name) + "_" + "xy"[k], "m", [&bodies, point = point, k] {
         return point.at(bodies.state().q)[k] - (k == 1 ? point.x0[1] : 0);
       });
-  examples::with_coupling(coupling, settings,
-                          [&](const auto& scheme) { session.run(scheme, 500, 20); });
-  examples::compare_flexible(session, setup_name == "reference");
+  examples::with_coupling(choice.coupling, settings, [&](const auto& scheme) {
+    session.run(scheme, *settings.samples, *settings.fields);
+  });
+  examples::compare_flexible(session, choice.known());
   session.finish();
 }
 
 int main(int argc, char** argv) {
-  examples::CommandLine command_line({.name = "shock_panel",
-                                      .title = "shock on a thin panel in a channel",
-                                      .backends = examples::backends(),
-                                      .precisions = examples::precisions(),
-                                      .defaults = {.spacing = 1e-3, .until = 5e-3, .cfl = 0.4},
-                                      .gas = true,
-                                      .structure = true});
-  std::string scheme = "best", coupling = "staggered", setup = "reference";
-  int elements = 12;
+  examples::Parameters parameters(
+      {.name = "shock_panel",
+       .title = "shock on a thin panel in a channel",
+       .backends = examples::backends(),
+       .precisions = examples::precisions(),
+       .defaults = {.spacing = 1e-3, .until = 5e-3, .cfl = 0.4, .fields = 20, .samples = 500},
+       .gas = true,
+       .structure = true});
+  std::string scheme = "best";
+  Choice choice;
   bool rigid = false;
-  examples::add_scheme(command_line, scheme);
-  examples::add_coupling(command_line, coupling);
-  command_line.add_choice("--setup", setup, {"reference", "experiment"},
-                          "the reference's channel, or a lower one as in the experiment");
-  command_line.add_whole_number("--elements", elements, {.at_least = 2, .at_most = 200}, "",
-                                "number of elements of the panel");
-  command_line.add_flag("--rigid", rigid, "a panel that does not move");
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
+  examples::add_scheme(parameters, scheme);
+  examples::add_coupling(parameters, choice.coupling);
+  parameters.add_choice("channel.setup", choice.setup, {"reference", "experiment"},
+                        "the reference's channel, or a lower one as in the experiment", "--setup");
+  parameters.add_whole_number("panel.elements", choice.elements, {.at_least = 2, .at_most = 200},
+                              "", "number of elements of the panel", "--elements");
+  parameters.add_flag("panel.rigid", rigid, "a panel that does not move", "--rigid");
+  choice.own.add(parameters);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
     const double dx = settings.spacing;
-    for (const double length : {panel_length, setup_named(setup).height})
-      examples::require(dx <= 5e-3 && std::abs(length / dx - std::round(length / dx)) < 1e-6,
-                        "--spacing", dx, "a whole fraction of 50 mm and of the channel's height");
-    examples::require_memory(0.65 * setup_named(setup).height / (dx * dx), dx);
+    examples::require(choice.setup == "reference" || choice.own == Setup{}, "channel.setup",
+                      choice.setup,
+                      "reference where channel, shock, gas or panel are changed by parameters");
+    const Setup setup = choice.setup == "reference" ? choice.own : setup_named(choice.setup);
+    setup.check();
+    for (const double length : {setup.length, setup.height})
+      examples::require(dx <= setup.length / 10 && examples::is_whole(length, dx), "--spacing", dx,
+                        "a whole fraction of the panel's length, " +
+                            examples::length_text(setup.length) + ", and of the channel's height");
+    examples::require_memory((setup.end - setup.opening) * setup.height / (dx * dx), dx);
     examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::ShockScheme<2>>(scheme, [&]<class Gas>() {
         if (rigid)
-          rigid_panel<Gas, T>(s, setup, policy);
+          rigid_panel<Gas, T>(s, choice, setup, policy);
         else
-          flexible_panel<Gas, T>(s, setup, elements, coupling, policy);
+          flexible_panel<Gas, T>(s, choice, setup, policy);
       });
     });
   });

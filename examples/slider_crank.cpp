@@ -18,20 +18,43 @@ using namespace sphmbs;
 using namespace sphmbs::mbs;
 using Mechanism = Structure<ncf::Bar, ncf::PlanarBody, joints::Joint<2>, forces::Torque<2>>;
 
+struct Case {
+  examples::SliderCrankMotion exact = {};  // data of the mechanism, and its solution
+  double polar = 1e-4;  // moment of inertia of the slider, which does not turn [kg m^2]
+  int halvings = 0;
+
+  void add(examples::Parameters& parameters) {
+    const auto add = [&](const char* key, double& value, const char* unit, const char* meaning) {
+      parameters.add_number(key, value, {.above = 0.0}, unit, meaning);
+    };
+    add("crank.length", exact.crank, "m", "of the crank");
+    add("crank.mass", exact.crank_mass, "kg", "of the crank");
+    add("crank.torque", exact.torque, "N m", "on the crank, constant");
+    add("rod.length", exact.rod, "m", "of the rod");
+    add("rod.mass", exact.rod_mass, "kg", "of the rod");
+    add("slider.mass", exact.slider_mass, "kg", "of the slider");
+    add("slider.polar", polar, "kg m^2", "moment of inertia of the slider, which does not turn");
+    parameters.add_whole_number("run.halvings", halvings, {.at_least = 0, .at_most = 6}, "",
+                                "runs again with so many halved steps, and shows the order",
+                                "--halvings");
+  }
+};
+
 /// Crank OA, rod AB and slider at B, at rest in line.
 struct SliderCrank {
-  examples::SliderCrankMotion exact = {};  // data of the case, and its solution
+  examples::SliderCrankMotion exact;
   Mechanism mechanism = {};
   Placed<ncf::Bar> crank, rod;
   Placed<ncf::PlanarBody> slider;
   int pin_O;
 
-  SliderCrank()
-      : crank(mechanism.add(bar({0, 0}, {exact.crank, 0}, exact.crank_mass))),
+  explicit SliderCrank(const Case& data)
+      : exact(data.exact),
+        crank(mechanism.add(bar({0, 0}, {exact.crank, 0}, exact.crank_mass))),
         rod(mechanism.add(bar({exact.crank, 0}, {exact.crank + exact.rod, 0}, exact.rod_mass))),
-        slider(mechanism.add(ncf::PlanarBody{
-            .inertia = {.mass = exact.slider_mass, .polar = 1e-4},  // [kg], [kg m^2]
-            .position = {exact.crank + exact.rod, 0}})) {
+        slider(mechanism.add(
+            ncf::PlanarBody{.inertia = {.mass = exact.slider_mass, .polar = data.polar},
+                            .position = {exact.crank + exact.rod, 0}})) {
     const VectorXd q = mechanism.q();
     pin_O = mechanism.add(joints::pinned(crank.start(), q, "O"));
     mechanism.add(joints::revolute(crank.end(), rod.start(), "A"));
@@ -52,21 +75,29 @@ struct SliderCrank {
 };
 
 template <class Policy>
-void slider_crank(const examples::Settings& settings, int halvings, Policy) {
-  SliderCrank model;
+void slider_crank(const examples::Settings& settings, const Case& data, Policy) {
+  examples::require(
+      data.exact.crank < data.exact.rod, "crank.length", data.exact.crank,
+      "below the length of the rod, " + examples::format_exact(data.exact.rod) + " m");
+  SliderCrank model(data);
   using System = Dynamics<Mechanism, solvers::SparseLDLT, Policy>;
   System system(model.mechanism);
 
   examples::Session session(settings, "slider_crank", "slider-crank under a constant torque",
                             system);
-  session.note("bodies", "crank 0.1 m, rod 0.3 m, 0.2 kg each, slider 0.4 kg, torque 0.1 N m");
+  const auto text = [](double value) { return examples::format_exact(value); };
+  const auto& exact = data.exact;
+  session.note("bodies", "crank " + text(exact.crank) + " m and " + text(exact.crank_mass) +
+                             " kg, rod " + text(exact.rod) + " m and " + text(exact.rod_mass) +
+                             " kg, slider " + text(exact.slider_mass) + " kg, torque " +
+                             text(exact.torque) + " N m");
   examples::trace_slider_crank(session, model.crank, model.slider);
   examples::record_reaction<joints::Joint<2>>(session, model.pin_O, "pin_O");
-  session.run(examples::integrator_of(settings), 200, 50);
+  session.run(examples::integrator_of(settings), *settings.samples, *settings.fields);
   examples::compare_with_reference(session, model.exact);
-  if (halvings > 0)
-    examples::report_order(session, model.exact, halvings, [&](double step) {
-      SliderCrank again;
+  if (data.halvings > 0)
+    examples::report_order(session, model.exact, data.halvings, [&](double step) {
+      SliderCrank again(data);
       System steps(again.mechanism);
       std::vector<double> x;
       run(
@@ -80,17 +111,17 @@ void slider_crank(const examples::Settings& settings, int halvings, Policy) {
 }
 
 int main(int argc, char** argv) {
-  int halvings = 0;
-  examples::CommandLine command_line({.name = "slider_crank",
-                                      .title = "slider-crank under a constant torque",
-                                      .backends = examples::host_backends(),
-                                      .defaults = {.until = 1, .step = 1e-3, .threads = 1},
-                                      .gas = false,
-                                      .structure = true});
-  command_line.add_whole_number("--halvings", halvings, {.at_least = 0, .at_most = 6}, "",
-                                "runs again with so many halved steps, and shows the order");
-  return examples::guarded_main(argc, argv, command_line, [&](const examples::Settings& settings) {
-    examples::with_host_backend(
-        settings, [&](const auto& s, auto policy) { slider_crank(s, halvings, policy); });
+  Case data;
+  examples::Parameters parameters(
+      {.name = "slider_crank",
+       .title = "slider-crank under a constant torque",
+       .backends = examples::host_backends(),
+       .defaults = {.until = 1, .step = 1e-3, .threads = 1, .fields = 50, .samples = 200},
+       .gas = false,
+       .structure = true});
+  data.add(parameters);
+  return examples::guarded_main(argc, argv, parameters, [&](const examples::Settings& settings) {
+    examples::with_host_backend(settings,
+                                [&](const auto& s, auto policy) { slider_crank(s, data, policy); });
   });
 }

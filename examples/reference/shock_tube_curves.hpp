@@ -17,6 +17,13 @@
 
 namespace sphmbs::examples {
 
+/// Gas at rest on both sides of the jump, Sod's without any other choice.
+struct TubeStates {
+  riemann::Primitive left{1, 0, 1};
+  riemann::Primitive right{0.125, 0, 0.1};
+  double gamma = 1.4;
+};
+
 /// Initial particles of Sod's problem on 0 <= x <= 1 with the jump at 0.5.
 template <int Dim>
 class SodTube {
@@ -27,17 +34,17 @@ class SodTube {
   static constexpr double jump = 0.5;
 
   /// @param spacing  on the dense side; rounded so that whole particles fit [m]
-  explicit SodTube(double spacing)
-      : dense_(std::lround(jump / spacing)),
+  explicit SodTube(double spacing, const TubeStates& states = {})
+      : states_(states),
+        dense_(std::lround(jump / spacing)),
         across_(Dim == 1 ? 1 : 24),
-        sparse_across_(Dim == 1   ? 1
-                       : Dim == 2 ? std::lround(static_cast<double>(across_) / std::sqrt(8.0))
-                                  : across_ / 2) {
+        sparse_across_(
+            Dim == 1 ? 1 : std::max(1L, std::lround(static_cast<double>(across_) * shrinkage()))) {
     dx_ = jump / static_cast<double>(dense_);
     width_ = Dim == 1 ? 1 : static_cast<double>(across_) * dx_;
     const double ratio =
         std::pow(static_cast<double>(across_) / static_cast<double>(sparse_across_), Dim - 1);
-    sparse_ = std::lround(0.125 * static_cast<double>(dense_) * ratio);
+    sparse_ = std::max(1L, std::lround(rarity() * static_cast<double>(dense_) * ratio));
   }
 
   geometry::Domain<Dim> domain() const {
@@ -52,14 +59,20 @@ class SodTube {
 
   /// Gas particles along the tube's axis, both sides together.
   long along() const { return dense_ + sparse_; }
+  const TubeStates& states() const { return states_; }
 
   /// Adds gas and, beyond both ends, five layers of virtual particles.
   void fill(particles::Cloud<Dim>& cloud) const {
-    half(cloud, left, dense_, across_, 0, jump);
-    half(cloud, right, sparse_, sparse_across_, jump, 1);
+    half(cloud, states_.left, dense_, across_, 0, jump);
+    half(cloud, states_.right, sparse_, sparse_across_, jump, 1);
   }
 
  private:
+  /// Of densities, right by left [-].
+  double rarity() const { return states_.right.rho / states_.left.rho; }
+  /// Particles across the tube on the right, by those on the left [-].
+  double shrinkage() const { return std::pow(rarity(), 1.0 / Dim); }
+
   void half(particles::Cloud<Dim>& cloud, const riemann::Primitive& state, long n, long across,
             double from, double to) const {
     const double step = (to - from) / static_cast<double>(n);
@@ -84,6 +97,7 @@ class SodTube {
     cloud.add_virtual(wall, s, {edge}, outside(tube));
   }
 
+  TubeStates states_;
   long dense_;
   long across_;
   long sparse_across_;
@@ -98,7 +112,8 @@ template <class Fluid, int Dim>
 void compare_with_exact(Session<Fluid>& session, Fluid& fluid, const SodTube<Dim>& tube) {
   using Tube = SodTube<Dim>;
   using Policy = typename Fluid::PolicyType;
-  const riemann::ExactSolution exact(Tube::left, Tube::right, Tube::gamma);
+  const TubeStates& states = tube.states();
+  const riemann::ExactSolution exact(states.left, states.right, states.gamma);
   const double t = fluid.time();
   const auto fields = fluid.particles().fields();
   const std::size_t n = fluid.size();

@@ -6,14 +6,14 @@
 #include <sphmbs/coupling/staggered.hpp>
 #include <sphmbs/coupling/strong.hpp>
 
-#include "support/settings.hpp"
+#include "support/parameters.hpp"
 
 namespace sphmbs::examples {
 
-/// Adds --coupling to a command line.
-inline void add_coupling(CommandLine& command_line, std::string& coupling) {
-  command_line.add_choice("--coupling", coupling, {"staggered", "strong"},
-                          "gas and bodies in turn, or until they agree in each step");
+/// Adds --coupling to the parameters.
+inline void add_coupling(Parameters& parameters, std::string& coupling) {
+  parameters.add_choice("run.coupling", coupling, {"staggered", "strong"},
+                        "gas and bodies in turn, or until they agree in each step", "--coupling");
 }
 
 /// Calls run(scheme) with the coupling that --coupling names.

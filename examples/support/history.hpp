@@ -42,6 +42,7 @@ class History {
   /// All values of a quantity. @throws std::out_of_range for an unknown name.
   const std::vector<double>& of(const std::string& name) const;
   bool has(const std::string& name) const;
+  const std::vector<io::CsvWriter::Column>& columns() const { return columns_; }
   /// Linear interpolation of a quantity at a time; NaN outside the rows.
   double at(const std::string& name, double time) const;
   /// The quantity as a curve.

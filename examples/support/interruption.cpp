@@ -36,6 +36,7 @@ Interruption::Interruption() {
   for (const int signal : ending) handle(signal, note_end);
   handle(SIGUSR1, note_save);
   handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);
 }
 
 Interruption::~Interruption() {

@@ -6,14 +6,14 @@
 
 #include <sphmbs/sph/presets.hpp>
 
-#include "support/settings.hpp"
+#include "support/parameters.hpp"
 
 namespace sphmbs::examples {
 
-/// Adds --scheme to a command line: the paper's equations or the best that the library has.
-inline void add_scheme(CommandLine& command_line, std::string& scheme) {
-  command_line.add_choice("--scheme", scheme, {"paper", "best"},
-                          "the paper's equations, or the library's best for this case");
+/// Adds --scheme to the parameters: the paper's equations or the best that the library has.
+inline void add_scheme(Parameters& parameters, std::string& scheme) {
+  parameters.add_choice("run.scheme", scheme, {"paper", "best"},
+                        "the paper's equations, or the library's best for this case", "--scheme");
 }
 
 /// Calls run.operator()<Gas>() with the scheme that --scheme names.

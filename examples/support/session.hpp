@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -21,10 +22,12 @@
 #include "support/display.hpp"
 #include "support/history.hpp"
 #include "support/output_folder.hpp"
+#include "support/probes.hpp"
 #include "support/report.hpp"
 #include "support/run_control.hpp"
 #include "support/session_checkpoints.hpp"
 #include "support/text.hpp"
+#include "support/view_script.hpp"
 
 namespace sphmbs::examples {
 
@@ -43,6 +46,7 @@ class Session {
         title_(std::move(title)),
         system_(system),
         display_(system),
+        probes_(probes_of(settings.probes, system)),
         report_(settings.quiet) {
     for (const auto& column : display_.columns()) history_.add(column.name, column.unit);
     sampled_.push_back([this](std::vector<double>& row) { display_.sample(row); });
@@ -104,10 +108,12 @@ class Session {
     std::optional<io::PvdCollection> collection;
     Every writing(settings_.until / fields,
                   [&](System&) { timed([&] { write_fields(*collection); }); });
-    written_ = {list, "history.csv"};
+    written_ = {list, "history.csv", "view.py"};
     if (!traced_.empty()) written_.push_back("trajectories.csv");
     if (settings_.check) check(is_new, seconds_since(begin));
+    std::vector<ProbeProgress> probed;
     const auto show = [&](auto& archive) {
+      if constexpr (!std::remove_cvref_t<decltype(archive)>::restores) probed = probes_.progress();
       archive("system", system_);
       if constexpr (requires { display_.visit_state(archive); }) archive("display", display_);
       archive("sampling", sampling);
@@ -116,6 +122,7 @@ class Session {
       archive("collection", *collection);
       archive("history", history_);
       archive("traces", traces_);
+      archive("probes", probed);
       archive("written", written_);
       archive("frames", frames_);
       archive("output_seconds", output_seconds_);
@@ -134,6 +141,9 @@ class Session {
     history_.begin(file("history.csv"), comment);
     if (!traced_.empty()) traces_.begin(file("trajectories.csv"), comment);
 
+    write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
+    probes_.begin(settings_.output, comment, settings_.until / samples, probed);
+
     RunControl control(settings_);
     RunControl::Decision decision;
     std::filesystem::path saved;
@@ -147,8 +157,9 @@ class Session {
     const Schedule schedule{settings_.until, settings_.cfl, step()};
     const bool ended = sphmbs::run(
         system_, integrator, schedule,
-        [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling, tracing,
-        writing);
+        [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling,
+        AtProbes{*this}, tracing, writing);
+    for (const std::string& name : probes_.names()) written_.push_back(name);
     wall_seconds_ = earlier + seconds_since(begin);
     steps_sent_ += sent();
     if (!ended) stop(decision, saved);
@@ -226,6 +237,16 @@ class Session {
     }
     return {};
   }
+
+  /// Samples probes that are due; holds up no step.
+  struct AtProbes {
+    Session& session;
+    double barrier() const { return std::numeric_limits<double>::infinity(); }
+    void observe(System&, bool last) {
+      if (session.probes_.due(last))
+        session.timed([&] { session.probes_.observe(session.report_, last); });
+    }
+  };
 
   template <class Output>
   void timed(Output&& output) {
@@ -367,6 +388,7 @@ class Session {
     s.peak_memory_bytes = peak_memory();
     s.results = results_;
     display_.summarise(s);
+    probes_.summarise(s);
     if (steps_sent_.loops > 0) {
       const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
       const double particles = static_cast<double>(s.particles.gas + s.particles.virtual_particles);
@@ -381,6 +403,7 @@ class Session {
   std::string title_;
   System& system_;
   Display<System> display_;
+  decltype(probes_of({}, std::declval<System&>())) probes_;
   Report report_;
   std::vector<BannerLine> notes_;
   History history_;

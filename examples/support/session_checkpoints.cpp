@@ -25,8 +25,12 @@ io::Identity parameters_in(const std::string& text) {
     if (line.starts_with('[')) table = line.substr(1, line.find(']') - 1) + ".";
     const std::size_t equals = line.find(" = ");
     if (line.empty() || line.starts_with('#') || equals == std::string::npos) continue;
-    const std::size_t comment = line.find("  #");
-    all[table + line.substr(0, equals)] = line.substr(equals + 3, comment - equals - 3);
+    bool quoted = false;
+    std::size_t end = equals + 3;
+    for (; end < line.size() && (quoted || line[end] != '#'); ++end)
+      if (line[end] == '"' && line[end - 1] != '\\') quoted = !quoted;
+    const std::string value = line.substr(equals + 3, end - equals - 3);
+    all[table + line.substr(0, equals)] = value.substr(0, value.find_last_not_of(' ') + 1);
   }
   return all;
 }

@@ -3,14 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <sphmbs/core/error.hpp>
+
+#include "support/probe_spec.hpp"
+
 namespace sphmbs::examples {
+
+class OutputLock;
 
 /// What every example program lets its user choose.
 struct Settings {
@@ -38,6 +43,10 @@ struct Settings {
   bool overwrite = false;
   /// Print nothing but warnings and errors.
   bool quiet = false;
+  /// How often the fields are written until the end; without it the program chooses.
+  std::optional<int> fields{};
+  /// How often the history is sampled until the end; without it the program chooses.
+  std::optional<int> samples{};
   /// Draw pictures and curves.
   bool plots = true;
   /// Read, validate and prepare, but do not run.
@@ -50,16 +59,12 @@ struct Settings {
   double checkpoint_every = 600;
   /// Number of steps after which the run ends.
   std::optional<std::int64_t> steps{};
+  /// Where the gas is sampled, beside what the program samples.
+  std::vector<ProbeSpec> probes{};
   /// All parameters as a parameter file, for used.toml; empty writes none.
   std::string used{};
-};
-
-/// Limits of a number. Whatever they are, NaN and infinity are refused.
-struct Bounds {
-  std::optional<double> above{};
-  std::optional<double> at_least{};
-  std::optional<double> below{};
-  std::optional<double> at_most{};
+  /// Keeps other runs out of `output` once prepare_output() has been called; shared by all copies.
+  std::shared_ptr<OutputLock> lock{};
 };
 
 /// A command shown by --help.
@@ -81,63 +86,32 @@ struct Program {
   /// there are several.
   std::vector<std::string> precisions{"double"};
   Settings defaults{};
-  /// What is simulated decides on the options: --spacing and --cfl belong to a gas,
+  /// What is simulated decides on the options: --spacing, --cfl and probes belong to a gas,
   /// --spectral-radius to a structure, and --accuracy to a structure without gas.
   bool gas = true;
   bool structure = false;
+  /// Number of coordinates of a place in the gas.
+  int dim = 2;
   /// Without any, --help shows two that fit every program.
   std::vector<UsageExample> usage_examples{};
 };
 
-/// Command line of an example program: the common options and those that the program adds.
-///
-/// The current value of the variable behind an added option is its default. All variables keep
-/// their values until the whole command line is accepted.
-class CommandLine {
- public:
-  /// Throws std::invalid_argument if the description is not complete: no name, no back end, or
-  /// defaults that the user could not give either.
-  explicit CommandLine(Program program);
-  ~CommandLine();
-  CommandLine(CommandLine&&) noexcept;
-  CommandLine& operator=(CommandLine&&) noexcept;
+/// A value that does not fit the problem. guarded_main() adds where it was given.
+struct RefusedValue : InvalidInput {
+  RefusedValue(std::string_view parameter, std::string_view given, const std::string& reason);
 
-  /// Adds `name` (with its two dashes) for a number in `unit` ("" for none). `help` is one line.
-  void add_number(const std::string& name, double& value, const Bounds& bounds,
-                  const std::string& unit, const std::string& help);
-  /// The same for a whole number.
-  void add_whole_number(const std::string& name, int& value, const Bounds& bounds,
-                        const std::string& unit, const std::string& help);
-  /// Adds `name` for one of `choices`.
-  void add_choice(const std::string& name, std::string& value,
-                  const std::vector<std::string>& choices, const std::string& help);
-  /// Adds `name` without a value; giving it sets `value` to true.
-  void add_flag(const std::string& name, bool& value, const std::string& help);
-
-  /// Reads and validates the command line. Creates and writes nothing. Returns nothing when --help
-  /// or --version is answered on `out`. Throws InvalidInput with one line that names the option,
-  /// its value and what is allowed.
-  std::optional<Settings> parse(int argc, const char* const* argv, std::ostream& out);
-
-  /// The text of --help, with units, defaults, limits and two examples.
-  std::string help() const;
-  /// The line of --version: versions, compiler, relevant flags and back ends.
-  std::string version_line() const;
-  /// How to make a run fit into the memory: "a larger --spacing means fewer particles".
-  std::string memory_advice() const;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::string name;   // key or option
+  std::string value;  // as it was given, or nearly
+  std::string why;    // "must be ..."
 };
 
-/// Checks an option against the problem, after parse(). Throws InvalidInput with the line
-/// "<option> <value>: must be <allowed>" unless the condition holds.
-void require(bool condition, std::string_view option, double value, std::string_view allowed);
-void require(bool condition, std::string_view option, std::string_view value,
+/// Checks a parameter against the problem, after parse(). `name` is its key or its option. Throws
+/// RefusedValue with the line "<name> <value>: must be <allowed>" unless the condition holds.
+void require(bool condition, std::string_view name, double value, std::string_view allowed);
+void require(bool condition, std::string_view name, std::string_view value,
              std::string_view allowed);
 
-/// Checks that about `particles` of them fit into the memory of this computer. Throws InvalidInput
+/// Checks that about `particles` of them fit into the memory of this computer. Throws RefusedValue
 /// naming --spacing, its value and how many would fit.
 void require_memory(double particles, double spacing);
 

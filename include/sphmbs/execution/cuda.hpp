@@ -22,7 +22,7 @@ namespace detail {
 
 inline void check_cuda(cudaError_t result) {
   if (result != cudaSuccess)
-    throw Error(std::string("execution policy cuda: ") + cudaGetErrorString(result));
+    throw Error(std::string("execution policy cuda: ") + cudaGetErrorString(result), "E600");
 }
 
 struct CudaMemory {

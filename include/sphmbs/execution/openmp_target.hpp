@@ -48,7 +48,8 @@ struct TargetMemory {
   static void check(int failure) {
     if (failure != 0)
       throw Error("execution policy omp_target: a copy over the bus failed with code " +
-                  std::to_string(failure));
+                      std::to_string(failure),
+                  "E600");
   }
 };
 

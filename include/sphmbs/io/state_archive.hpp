@@ -132,7 +132,10 @@ class StateArchive {
     } else {
       auto size = static_cast<std::uint64_t>(value.size());
       (*this)("size", size);
-      if constexpr (Medium::restores) value.resize(size);
+      if constexpr (Medium::restores) {
+        medium().require(size <= medium().file().sections().size(), path_);
+        value.resize(size);
+      }
       std::size_t k = 0;
       for (auto& entry : value) (*this)(std::to_string(k++), entry);
     }
@@ -146,10 +149,21 @@ class StateArchive {
 
   template <class M>
   void show_matrix(M& value) {
+    using Entry = typename M::Scalar;
     std::array<std::int64_t, 2> shape{value.rows(), value.cols()};
     (*this)("shape", shape);
-    if constexpr (Medium::restores) value.resize(shape[0], shape[1]);
     const Inside inside(path_, "entries");
+    const auto entries = medium().count(path_, detail::type_name<Entry>(), sizeof(Entry),
+                                        static_cast<std::uint64_t>(value.size()));
+    if constexpr (Medium::restores) {
+      medium().require(shape[0] >= 0 && shape[1] >= 0 &&
+                           (shape[1] == 0 ? entries == 0
+                                          : entries % static_cast<std::uint64_t>(shape[1]) == 0 &&
+                                                entries / static_cast<std::uint64_t>(shape[1]) ==
+                                                    static_cast<std::uint64_t>(shape[0])),
+                       path_);
+      value.resize(shape[0], shape[1]);
+    }
     medium().transfer(path_, value.data(), static_cast<std::size_t>(value.size()));
   }
 
@@ -226,6 +240,9 @@ class StateReader : public StateArchive<StateReader> {
                                std::to_string(section.bytes / sizeof(T)) + " numbers, not " +
                                std::to_string(count));
     file_.read(section, std::as_writable_bytes(std::span(data, count)));
+  }
+  void require(bool fits, const std::string& name) const {
+    if (!fits) file_.refuse("E405", "the size of " + name + " does not fit to what is there");
   }
   std::uint64_t count(std::string_view name, std::string_view type, std::size_t width,
                       std::uint64_t) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/settings.hpp"
+#include "support/parameters.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,28 +15,13 @@
 #include "support/catch.hpp"
 #include "support/guarded_main.hpp"
 #include "support/output_folder.hpp"
+#include "support/wedge.hpp"
 
 namespace sphmbs::examples {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// An empty directory that is removed at the end of the test.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / ("sphmbs_test_" + std::to_string(::getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Scratch() { fs::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
+using test::Run;
 
 /// Gives up the rights of root, to whom no directory is closed.
 class Unprivileged {
@@ -52,50 +37,7 @@ class Unprivileged {
   bool was_root_ = ::geteuid() == 0;
 };
 
-/// A program with one added option of each kind, and what came out of running it.
-struct Run {
-  Scratch scratch{};
-  double mach = 3.0;
-  int order = 2;
-  std::string kernel = "quintic";
-  bool viscous = false;
-  CommandLine line{{.name = "wedge",
-                    .title = "flow over a wedge",
-                    .backends = {"openmp", "serial"},
-                    .defaults = {.spacing = 0.5,
-                                 .until = 2.0,
-                                 .cfl = 0.4,
-                                 .threads = 3,
-                                 .output = scratch / "new" / "folder"}}};
-  std::optional<Settings> settings{};
-  std::string out{};
-  std::string err{};
-  int code = -1;
-
-  Run() {
-    line.add_number("--mach", mach, {.above = 1.0, .below = 20.0}, "", "inflow Mach number");
-    line.add_whole_number("--order", order, {.at_least = 1.0}, "", "order of reconstruction");
-    line.add_choice("--kernel", kernel, {"quintic", "wendland"}, "smoothing kernel");
-    line.add_flag("--viscous", viscous, "with viscosity");
-  }
-
-  Run& with(const std::vector<std::string>& words,
-            const std::function<void(const Settings&)>& body = {}) {
-    std::vector<const char*> argv{"wedge"};
-    for (const std::string& word : words) argv.push_back(word.c_str());
-    std::ostringstream out_stream;
-    std::ostringstream err_stream;
-    const auto keep = [&](const Settings& given) {
-      settings = given;
-      if (body) body(given);
-    };
-    code = guarded_main(static_cast<int>(argv.size()), argv.data(), line, keep, out_stream,
-                        err_stream);
-    out = out_stream.str();
-    err = err_stream.str();
-    return *this;
-  }
-};
+const std::string last_line = "1 error; nothing was written\n";
 
 bool is_one_line(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
@@ -146,7 +88,7 @@ TEST_CASE("the serial back end has one thread") {
   CHECK(Run().with({"--backend", "serial"}).settings->threads == 1);
   CHECK(Run().with({"--backend", "serial", "--threads", "1"}).settings->threads == 1);
   CHECK(Run().with({"--backend", "serial", "--threads", "2"}).err ==
-        "error: --threads 2: must be 1 with --backend serial\n");
+        "command line: error E023 --threads 2: must be 1 with --backend serial\n" + last_line);
 }
 
 TEST_CASE("every bad option gives one line, exit code 2 and no result") {
@@ -159,61 +101,77 @@ TEST_CASE("every bad option gives one line, exit code 2 and no result") {
   const std::string courant = "must be a positive number, at most 1";
   const std::string threads = "must be a whole number from 1 to 4096";
   const std::vector<Case> cases{
-      {{"--spacng", "1"}, "--spacng: is not an option; did you mean --spacing?"},
-      {{"--spacng=1"}, "--spacng: is not an option; did you mean --spacing?"},
-      {{"-spacing", "1"}, "-spacing: is not an option; did you mean --spacing?"},
-      {{"--machs", "1"}, "--machs: is not an option; did you mean --mach?"},
-      {{"-q"}, "-q: is not an option; did you mean --quiet?"},
-      {{"--frobnicate"}, "--frobnicate: is not an option; --help lists all"},
-      {{"--"}, "--: is not an option; --help lists all"},
-      {{"0.5"}, "0.5: is not an option; each value follows the name of its option, see --help"},
-      {{"--spacing"}, "--spacing: needs a value; it " + metres},
-      {{"--spacing="}, "--spacing: needs a value; it " + metres},
-      {{"--spacing", ""}, "--spacing: needs a value; it " + metres},
-      {{"--spacing", "--quiet"}, "--spacing: needs a value; it " + metres},
-      {{"--spacing", "1", "--spacing", "2"}, "--spacing: is given more than once"},
-      {{"--quiet=no"}, "--quiet: takes no value"},
-      {{"--spacing", "abc"}, "--spacing abc: " + metres},
-      {{"--spacing", "0.5m"}, "--spacing 0.5m: " + metres},
-      {{"--spacing", "0,5"}, "--spacing 0,5: " + metres},
-      {{"--spacing", "+-1"}, "--spacing +-1: " + metres},
-      {{"--spacing", "1\n2"}, "--spacing 1 2: " + metres},
-      {{"--spacing", "nan"}, "--spacing nan: " + metres},
-      {{"--spacing", "inf"}, "--spacing inf: " + metres},
-      {{"--spacing", "1e999"}, "--spacing 1e999: " + metres},
-      {{"--spacing", "0"}, "--spacing 0: " + metres},
-      {{"--spacing", "-1"}, "--spacing -1: " + metres},
-      {{"--spacing=-1"}, "--spacing -1: " + metres},
-      {{"--until", "0"}, "--until 0: " + seconds},
-      {{"--until", "-2"}, "--until -2: " + seconds},
-      {{"--until", "NaN"}, "--until NaN: " + seconds},
-      {{"--step", "0"}, "--step 0: " + seconds},
-      {{"--step", "-1e-3"}, "--step -1e-3: " + seconds},
-      {{"--step", "1e-3", "--cfl", "0.3"}, "--step 1e-3: excludes --cfl; give one of them"},
-      {{"--cfl", "0"}, "--cfl 0: " + courant},
-      {{"--cfl", "-0.1"}, "--cfl -0.1: " + courant},
-      {{"--cfl", "1.01"}, "--cfl 1.01: " + courant},
-      {{"--cfl", "inf"}, "--cfl inf: " + courant},
-      {{"--threads", "0"}, "--threads 0: " + threads},
-      {{"--threads", "-1"}, "--threads -1: " + threads},
-      {{"--threads", "4097"}, "--threads 4097: " + threads},
-      {{"--threads", "2.5"}, "--threads 2.5: " + threads},
-      {{"--threads", "99999999999999999999"}, "--threads 99999999999999999999: " + threads},
+      {{"--spacng", "1"}, "E010 --spacng: is not an option; did you mean --spacing?"},
+      {{"--spacng=1"}, "E010 --spacng: is not an option; did you mean --spacing?"},
+      {{"-spacing", "1"}, "E010 -spacing: is not an option; did you mean --spacing?"},
+      {{"--machs", "1"}, "E010 --machs: is not an option; did you mean --mach?"},
+      {{"-q"}, "E010 -q: is not an option; did you mean --quiet?"},
+      {{"--frobnicate"}, "E010 --frobnicate: is not an option; --help lists all"},
+      {{"--"}, "E010 --: is not an option; --help lists all"},
+      {{"--spacing"}, "E011 --spacing: needs a value; it " + metres},
+      {{"--spacing="}, "E011 --spacing: needs a value; it " + metres},
+      {{"--spacing", ""}, "E011 --spacing: needs a value; it " + metres},
+      {{"--spacing", "--quiet"}, "E011 --spacing: needs a value; it " + metres},
+      {{"--spacing", "1", "--spacing", "2"}, "E013 --spacing: is given more than once"},
+      {{"--quiet=no"}, "E012 --quiet: takes no value"},
+      {{"--spacing", "abc"}, "E024 --spacing abc: " + metres},
+      {{"--spacing", "0.5m"}, "E024 --spacing 0.5m: " + metres},
+      {{"--spacing", "0,5"}, "E024 --spacing 0,5: " + metres},
+      {{"--spacing", "+-1"}, "E024 --spacing +-1: " + metres},
+      {{"--spacing", "1\n2"}, "E024 --spacing 1 2: " + metres},
+      {{"--spacing", "nan"}, "E025 --spacing nan: " + metres + ", finite"},
+      {{"--spacing", "inf"}, "E025 --spacing inf: " + metres + ", finite"},
+      {{"--spacing", "1e999"}, "E025 --spacing 1e999: " + metres + ", finite"},
+      {{"--spacing", "0"},
+       "E022 --spacing 0: " + metres + std::string(" (distance of neighbouring particles)")},
+      {{"--spacing", "-1"},
+       "E022 --spacing -1: " + metres + std::string(" (distance of neighbouring particles)")},
+      {{"--spacing=-1"},
+       "E022 --spacing -1: " + metres + std::string(" (distance of neighbouring particles)")},
+      {{"--until", "0"},
+       "E022 --until 0: " + seconds + std::string(" (physical time at which the run ends)")},
+      {{"--until", "-2"},
+       "E022 --until -2: " + seconds + std::string(" (physical time at which the run ends)")},
+      {{"--until", "NaN"}, "E025 --until NaN: " + seconds + ", finite"},
+      {{"--step", "0"}, "E022 --step 0: " + seconds + std::string(" (fixed time step)")},
+      {{"--step", "-1e-3"}, "E022 --step -1e-3: " + seconds + std::string(" (fixed time step)")},
+      {{"--step", "1e-3", "--cfl", "0.3"}, "E014 --step 1e-3: excludes --cfl; give one of them"},
+      {{"--cfl", "0"},
+       "E022 --cfl 0: " + courant +
+           std::string(" (Courant number of the time step, excludes --step)")},
+      {{"--cfl", "-0.1"},
+       "E022 --cfl -0.1: " + courant +
+           std::string(" (Courant number of the time step, excludes --step)")},
+      {{"--cfl", "1.01"},
+       "E022 --cfl 1.01: " + courant +
+           std::string(" (Courant number of the time step, excludes --step)")},
+      {{"--cfl", "inf"}, "E025 --cfl inf: " + courant + ", finite"},
+      {{"--threads", "0"}, "E022 --threads 0: " + threads + std::string(" (number of threads)")},
+      {{"--threads", "-1"}, "E022 --threads -1: " + threads + std::string(" (number of threads)")},
+      {{"--threads", "4097"},
+       "E022 --threads 4097: " + threads + std::string(" (number of threads)")},
+      {{"--threads", "2.5"}, "E024 --threads 2.5: " + threads},
+      {{"--threads", "99999999999999999999"}, "E024 --threads 99999999999999999999: " + threads},
       {{"--backend", "cuda"},
-       "--backend cuda: must be compiled into this program: openmp, serial; SPHMBS_OFFLOAD adds "
+       "E022 --backend cuda: must be compiled into this program: openmp, serial; SPHMBS_OFFLOAD "
+       "adds "
        "openacc, omp_target or cuda (docs/gpu.md)"},
-      {{"--mach", "1"}, "--mach 1: must be a number, above 1 and below 20"},
-      {{"--mach", "20"}, "--mach 20: must be a number, above 1 and below 20"},
-      {{"--order", "0"}, "--order 0: must be a whole number, at least 1"},
-      {{"--kernel", "cubic"}, "--kernel cubic: must be one of quintic, wendland"},
-      {{"--viscous=1x"}, "--viscous: takes no value"},
+      {{"--mach", "1"},
+       "E022 --mach 1: must be above 1 and below 20" + std::string(" (inflow Mach number)")},
+      {{"--mach", "20"},
+       "E022 --mach 20: must be above 1 and below 20" + std::string(" (inflow Mach number)")},
+      {{"--order", "0"},
+       "E022 --order 0: must be a whole number, at least 1" +
+           std::string(" (order of reconstruction)")},
+      {{"--kernel", "cubic"}, "E022 --kernel cubic: must be one of quintic, wendland"},
+      {{"--viscous=1x"}, "E012 --viscous: takes no value"},
   };
   for (const Case& bad : cases) {
     Run run;
     run.with(bad.words);
     CAPTURE(bad.words, run.err);
     CHECK(run.code == 2);
-    CHECK(run.err == "error: " + bad.message + "\n");
+    CHECK(run.err == "command line: error " + bad.message + "\n" + last_line);
     CHECK_FALSE(run.settings);
     CHECK(run.out.empty());
     CHECK_FALSE(fs::exists(run.scratch / "new"));
@@ -236,8 +194,8 @@ TEST_CASE("the output directory is checked and nothing in it is touched") {
     run.with(more);
     CAPTURE(run.err);
     CHECK(run.code == (run.err.empty() ? 0 : 2));
-    CHECK((run.err.empty() || is_one_line(run.err)));
-    return run.err;
+    CHECK((run.err.empty() || run.err.ends_with("\n" + last_line)));
+    return run.err.substr(0, run.err.find('\n') + 1);
   };
   const fs::path file = run.scratch / "file";
   std::ofstream(file) << "kept";
@@ -248,13 +206,14 @@ TEST_CASE("the output directory is checked and nothing in it is touched") {
   fs::create_directory(empty);
 
   CHECK(message(empty).empty());
-  CHECK(message(file) ==
-        "error: --output " + file.string() + ": must be a directory, but a file has this name\n");
-  CHECK(message(file / "below") == "error: --output " + (file / "below").string() +
-                                       ": must be a directory that can be created: " +
-                                       file.string() + " is not a directory\n");
+  CHECK(message(file) == "command line: error E030 --output " + file.string() +
+                             ": must be a directory, but a file has this name\n");
+  CHECK(message(file / "below") ==
+        "command line: error E030 --output " + (file / "below").string() +
+            ": must be a directory that can be created: " + file.string() +
+            " is not a directory\n");
   CHECK(message(full) ==
-        "error: --output " + full.string() +
+        "command line: error E030 --output " + full.string() +
             ": must be new or empty; --overwrite replaces the files of the same names in it\n");
   CHECK(message(full, {"--overwrite"}).empty());
   CHECK_THAT(message(run.scratch / std::string(300, 'x')),
@@ -264,11 +223,12 @@ TEST_CASE("the output directory is checked and nothing in it is touched") {
   fs::permissions(empty, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_exec |
                              fs::perms::others_exec);
   const Unprivileged unprivileged;
-  CHECK(message(empty) == "error: --output " + empty.string() +
+  CHECK(message(empty) == "command line: error E030 --output " + empty.string() +
                               ": must be a directory that can be written: Permission denied\n");
-  CHECK(message(empty / "below") == "error: --output " + (empty / "below").string() +
-                                        ": must be a directory that can be created: " +
-                                        empty.string() + ": Permission denied\n");
+  CHECK(message(empty / "below") ==
+        "command line: error E030 --output " + (empty / "below").string() +
+            ": must be a directory that can be created: " + empty.string() +
+            ": Permission denied\n");
 }
 
 TEST_CASE("prepare_output creates the directory once and keeps what is in it") {
@@ -301,7 +261,7 @@ TEST_CASE("the help lists every option with unit, default and two examples") {
                            "from 1 to 4096 (default 3)",
                            "--backend",
                            "openmp, serial",
-                           "--output DIR",
+                           "-o,--output,--out DIR",
                            "--overwrite",
                            "--quiet",
                            "--mach",
@@ -335,7 +295,8 @@ TEST_CASE("a program checks its options against the problem by require") {
     require(settings.spacing < 0.2, "--spacing", settings.spacing, "below 0.2 m, half the radius");
   });
   CHECK(run.code == 2);
-  CHECK(run.err == "error: --spacing 0.5: must be below 0.2 m, half the radius\n");
+  CHECK(run.err == "default: error E023 run.spacing = 0.5: must be below 0.2 m, half the radius\n" +
+                       last_line);
   CHECK_THROWS_AS(require(false, "--kernel", "cubic", "smooth"), InvalidInput);
 }
 
@@ -343,21 +304,22 @@ TEST_CASE("guarded_main maps every exception to its exit code") {
   const auto code = [](const std::function<void(const Settings&)>& body, const std::string& line) {
     Run run;
     run.with({}, body);
-    CHECK(run.err == "error: " + line + "\n");
+    CHECK(run.err == "error " + line + "\n");
     return run.code;
   };
-  CHECK(code([](const Settings&) { throw InvalidInput("two\nlines"); }, "two lines") == 2);
-  CHECK(code([](const Settings&) { throw NumericalFailure("a"); }, "a") == 3);
-  CHECK(code([](const Settings&) { throw OutputError("b"); }, "b") == 5);
+  CHECK(code([](const Settings&) { throw InvalidInput("two\nlines"); }, "E100 two lines") == 2);
+  CHECK(code([](const Settings&) { throw NumericalFailure("a", "E301"); }, "E301 a") == 3);
+  CHECK(code([](const Settings&) { throw RefusedCheckpoint("d"); }, "E400 d") == 4);
+  CHECK(code([](const Settings&) { throw OutputError("b"); }, "E500 b") == 5);
   CHECK(code([](const Settings&) { throw std::bad_alloc(); },
-             "out of memory; a larger --spacing means fewer particles") == 6);
-  CHECK(code([](const Settings&) { throw std::logic_error("c"); }, "c") == 1);
-  CHECK(code([](const Settings&) { throw 1; }, "unknown exception") == 1);
+             "E090 out of memory; a larger --spacing means fewer particles") == 6);
+  CHECK(code([](const Settings&) { throw std::logic_error("c"); }, "E099 c") == 1);
+  CHECK(code([](const Settings&) { throw 1; }, "E099 unknown exception") == 1);
 }
 
 TEST_CASE("a program with a default that no user could give is refused") {
   const auto build = [](Settings defaults) {
-    CommandLine({.name = "x", .backends = {"serial"}, .defaults = std::move(defaults)});
+    Parameters({.name = "x", .backends = {"serial"}, .defaults = std::move(defaults)});
   };
   CHECK_NOTHROW(build({.spacing = 1.0, .until = 1.0}));
   CHECK_THROWS_AS(build({.spacing = 0.0, .until = 1.0}), std::invalid_argument);

@@ -144,3 +144,26 @@ TEST_CASE("csv reports a missing directory and a full device", "[io]") {
   if (!std::filesystem::exists("/dev/full")) return;
   CHECK_THROWS_AS(sphmbs::io::CsvWriter("/dev/full", "", Columns{{"a", "s"}}), sphmbs::OutputError);
 }
+
+TEST_CASE("a table goes on where it was cut off", "[io]") {
+  const Directory directory;
+  const auto path = directory.path / "a.csv";
+  std::uintmax_t kept = 0;
+  {
+    sphmbs::io::CsvWriter csv(path, "c", {{"t", "s"}, {"x", "m"}});
+    csv.row({0, 1});
+    kept = csv.bytes();
+    csv.row({1, 2});
+  }
+  {
+    sphmbs::io::CsvWriter csv(path, 2, kept);
+    csv.row({1, 3});
+    CHECK_THROWS_AS(csv.row({1, 3, 4}), std::invalid_argument);
+    csv.flush();
+    CHECK(csv.bytes() == std::filesystem::file_size(path));
+  }
+  CHECK(lines(path) == std::vector<std::string>{"# c", "t[s],x[m]", "0,1", "1,3"});
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(path, 2, 1000), sphmbs::OutputError);
+  CHECK_THROWS_AS(sphmbs::io::CsvWriter(directory.path / "b.csv", 2, 0), sphmbs::OutputError);
+  CHECK(lines(path).size() == 4);
+}
