@@ -13,6 +13,8 @@ set(SPHMBS_VECTOR_WIDTH "" CACHE STRING "Bits for -mprefer-vector-width, empty: 
 option(SPHMBS_FLOAT "All examples of gas with fields of float too (--precision)" OFF)
 set(SPHMBS_OFFLOAD "" CACHE STRING "Device policy: openacc, omp_target or cuda; empty: none")
 set_property(CACHE SPHMBS_OFFLOAD PROPERTY STRINGS "" openacc omp_target cuda)
+option(SPHMBS_FUZZ "Build the fuzz targets of the readers, with Clang" OFF)
+option(SPHMBS_COVERAGE "Count which lines the tests run, for gcov" OFF)
 set(SPHMBS_SANITIZE "" CACHE STRING "Sanitizers as a list, for example address;undefined")
 
 get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "git_id.hpp"
+
 namespace sphmbs::examples {
 namespace {
 
@@ -55,8 +57,10 @@ std::string flags() {
 }  // namespace
 
 std::string build_info() {
-  return compiler() + flags() + " | Eigen " + std::to_string(EIGEN_WORLD_VERSION) + "." +
-         std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION);
+  const std::string commit = SPHMBS_GIT_ID;
+  return (commit.empty() ? "" : "commit " + commit + " | ") + compiler() + flags() + " | Eigen " +
+         std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
 }
 
 }  // namespace sphmbs::examples

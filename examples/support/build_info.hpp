@@ -5,8 +5,8 @@
 
 namespace sphmbs::examples {
 
-/// How the program was compiled, in one line: compiler, the macros of the flags that matter for
-/// speed and results, and the version of Eigen.
+/// How the program was compiled, in one line: the commit if it was built with git, compiler, the
+/// macros of the flags that matter for speed and results, and the version of Eigen.
 std::string build_info();
 
 }  // namespace sphmbs::examples

@@ -265,5 +265,5 @@ TEST_CASE("every error of the library is a sphmbs Error", "[core]") {
   CHECK_THROWS_AS(throw sphmbs::InvalidInput("x"), sphmbs::Error);
   CHECK_THROWS_AS(throw sphmbs::NumericalFailure("x"), sphmbs::Error);
   CHECK_THROWS_AS(throw sphmbs::OutputError("x"), sphmbs::Error);
-  CHECK_THROWS_AS(throw sphmbs::Error("x"), std::runtime_error);
+  CHECK_THROWS_AS(throw sphmbs::Error("x", "E100"), std::runtime_error);
 }
