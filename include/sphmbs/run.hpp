@@ -15,9 +15,9 @@ namespace sphmbs {
 
 /// How long to run and how long a step may be.
 struct Schedule {
-  double until;                     // end time [s]
-  double cfl = 0.4;                 // share of the stability limits, where `step` is not given [-]
-  std::optional<double> step = {};  // fixed step [s]
+  double until;      ///< end time [s]
+  double cfl = 0.4;  ///< share of the stability limits, where `step` is not given [-]
+  std::optional<double> step = {};  ///< fixed step [s]
 
   /// @throws InvalidInput for numbers that are not positive and finite, or a cfl above 1.
   void check() const {

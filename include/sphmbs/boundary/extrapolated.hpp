@@ -25,9 +25,10 @@ struct Extrapolated {
   static constexpr bool surfaces = true;
   static constexpr bool slips = slip;
 
-  bool isothermal = false;  // at the temperature of the virtual particles' own state, or adiabatic
-  double strength = 3;      // of the dissipation [-]
-  double steepest = 4;      // bound of phi [-]
+  /// Wall at the temperature of the virtual particles' own state; false: adiabatic.
+  bool isothermal = false;
+  double strength = 3;  ///< of the dissipation [-]
+  double steepest = 4;  ///< bound of phi [-]
 
   template <int Dim, class N>
   SPHMBS_INLINE Contact<Dim, N> contact(const Meeting<Dim, N>& m) const {

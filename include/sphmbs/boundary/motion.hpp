@@ -11,8 +11,8 @@ namespace sphmbs::boundary {
 
 /// Which virtual particle moves.
 struct Mark {
-  int set;           // number of its set
-  std::uint32_t id;  // place in the initial cloud
+  int set;           ///< number of its set
+  std::uint32_t id;  ///< place in the initial cloud
 };
 
 /// Prescribed motion of virtual particles. `position` carries a particle from time t0 to t1 and
@@ -42,8 +42,8 @@ struct Fixed {
 /// Uniform contraction towards the origin at a constant speed of the walls: r = l(t) / l(0) r(0),
 /// l(t) = length - 2 speed t, for every set. The sealed cavity of sect. 5.2.
 struct Contraction {
-  double length;  // between two opposite walls at time 0 [m]
-  double speed;   // of each wall, inwards [m/s]
+  double length;  ///< between two opposite walls at time 0 [m]
+  double speed;   ///< of each wall, inwards [m/s]
 
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double t0, double t1) const {

@@ -14,7 +14,7 @@ struct Error : std::runtime_error {
   Error(const std::string& message, std::string_view message_id)
       : std::runtime_error(message), id(message_id) {}
 
-  std::string_view id;  // a literal
+  std::string_view id;  ///< a literal
 };
 
 /// A parameter, an option or an input file is not acceptable. Programs end with exit code 2.

@@ -14,9 +14,9 @@ namespace sphmbs::coupling {
 /// What has passed from the gas to the bodies since time 0.
 template <int Dim>
 struct Exchanged {
-  Vec<Dim> impulse = {};      // on the wetted particles [kg m/s]
-  double work_of_gas = 0;     // of the gas's forces at the velocities that it met [J]
-  double work_on_bodies = 0;  // of the same as a generalized force on the way of the bodies [J]
+  Vec<Dim> impulse = {};      ///< on the wetted particles [kg m/s]
+  double work_of_gas = 0;     ///< of the gas's forces at the velocities that it met [J]
+  double work_on_bodies = 0;  ///< of the same as a generalized force on the way of the bodies [J]
 };
 
 /// A gas and the bodies in it, in both directions: coupling::Staggered and coupling::Strong move
@@ -49,9 +49,9 @@ class Immersed {
     watch_.begin(fluid, surface);
   }
 
-  double time() const { return fluid_.time(); }  // [s]
+  double time() const { return fluid_.time(); }  ///< [s]
   Fluid& fluid() { return fluid_; }
-  Bodies& bodies() { return bodies_; }  // mbs::Dynamics
+  Bodies& bodies() { return bodies_; }  ///< mbs::Dynamics
   Surface& surface() { return surface_; }
   /// Of the bodies: coordinates and rates, the structure, multipliers as mbs::Dynamics gives them.
   const mbs::State& state() const { return bodies_.state(); }

@@ -16,15 +16,15 @@ namespace sphmbs::coupling {
 /// What the repetition x -> F(x) of coupling::Strong has shown so far.
 struct Repetition {
   struct Pair {
-    mbs::VectorXd residual, result;  // F(x) - x, F(x)
+    mbs::VectorXd residual, result;  ///< F(x) - x, F(x)
   };
 
   /// A step begins; changes seen in earlier ones stay known.
   void begin() { last = {}; }
 
-  Pair last;                 // of this step; empty before its first
-  double share = 1;          // of the last correction that was taken [-]
-  std::deque<Pair> changes;  // from one repetition of a step to the next, newest first
+  Pair last;                 ///< of this step; empty before its first
+  double share = 1;          ///< of the last correction that was taken [-]
+  std::deque<Pair> changes;  ///< from one repetition of a step to the next, newest first
 };
 
 /// How the next x of a repetition follows from F(x).
@@ -38,7 +38,7 @@ concept RepetitionPolicy = requires(const R policy, const mbs::VectorXd x, Repet
 
 /// A fixed share of each correction.
 struct Relaxation {
-  double share = 0.5;  // [-]
+  double share = 0.5;  ///< [-]
 
   void check() const { expects(share > 0 && share <= 1, "share", share, "above 0 and at most 1"); }
 
@@ -50,7 +50,7 @@ struct Relaxation {
 /// A share of each correction that follows from the last two (Kuettler and Wall, Comput. Mech. 43,
 /// 2008).
 struct Aitken {
-  double first = 1;  // share of the first correction of a step [-]
+  double first = 1;  ///< share of the first correction of a step [-]
   double most = 1.5;
 
   void check() const {
@@ -76,8 +76,8 @@ struct Aitken {
 /// Newton's method with the inverse Jacobian that fits the last changes best (IQN-ILS, Degroote,
 /// Bathe and Vierendeels, Comput. Struct. 87, 2009), of this step and of those before.
 struct QuasiNewton {
-  int most = 10;              // changes that are known [-]
-  double independent = 1e-2;  // share of a change that newer ones must leave of it [-]
+  int most = 10;              ///< changes that are known [-]
+  double independent = 1e-2;  ///< share of a change that newer ones must leave of it [-]
 
   void check() const {
     expects(most >= 1, "number of changes", most, "at least 1");

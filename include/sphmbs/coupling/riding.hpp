@@ -13,8 +13,8 @@ namespace sphmbs::coupling {
 /// direction of n + m s, of any length, for its normal.
 template <int Dim>
 struct Course {
-  Vec<Dim> r, v, a;  // [m], [m/s], [m/s^2]
-  Vec<Dim> u, w;     // [m/s], [m/s^2]
+  Vec<Dim> r, v, a;  ///< [m], [m/s], [m/s^2]
+  Vec<Dim> u, w;     ///< [m/s], [m/s^2]
   Vec<Dim> n, m;
 };
 
@@ -23,9 +23,9 @@ struct Course {
 template <int Dim, class Rest = boundary::Fixed>
 struct Riding {
   const Course<Dim>* courses = nullptr;
-  const std::int64_t* place = nullptr;  // of the first particle of a set among the courses less
-                                        // its id, or `aground` for sets that ride on nothing
-  double start = 0;                     // of the courses [s]
+  const std::int64_t* place = nullptr;  ///< of the first particle of a set among the courses less
+                                        ///< its id, or `aground` for sets that ride on nothing
+  double start = 0;                     ///< of the courses [s]
   Rest rest = {};
 
   static constexpr std::int64_t aground = INT64_MIN;

@@ -14,9 +14,9 @@ namespace sphmbs::coupling {
 template <class Integrator = mbs::GeneralizedAlpha>
 struct Staggered {
   Integrator structure = {};
-  bool accelerated = true;  // the way bends by the last acceleration; the paper's is straight
-  int gas_steps = 1;        // of the gas in one of the structure, over which forces are averaged
-  int structure_steps = 1;  // of the structure in one of the gas, under the same force
+  bool accelerated = true;  ///< the way bends by the last acceleration; the paper's is straight
+  int gas_steps = 1;        ///< of the gas in one of the structure, over which forces are averaged
+  int structure_steps = 1;  ///< of the structure in one of the gas, under the same force
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {

@@ -24,9 +24,9 @@ template <RepetitionPolicy Repeat = QuasiNewton, class Integrator = mbs::General
 struct Strong {
   Integrator structure = {};
   Repeat repeat = {};
-  double tolerance = 1e-11;  // of the forces, relative [-]
-  int most = 50;             // repetitions
-  double slack = 0.03;       // of a smoothing length, for bodies to change their way by [-]
+  double tolerance = 1e-11;  ///< of the forces, relative [-]
+  int most = 50;             ///< repetitions
+  double slack = 0.03;       ///< of a smoothing length, for bodies to change their way by [-]
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {

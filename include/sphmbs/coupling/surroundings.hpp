@@ -20,12 +20,12 @@ namespace sphmbs::coupling {
 /// A particle at the surface of a body or a wall, or one of gas.
 template <int Dim>
 struct Seen {
-  Vec<Dim> r, normal;  // [m], out of the solid; zero where no surface is known
-  double depth;        // below the surface [m]
-  double spacing;      // [m]
+  Vec<Dim> r, normal;  ///< [m], out of the solid; zero where no surface is known
+  double depth;        ///< below the surface [m]
+  double spacing;      ///< [m]
   int set;
   std::uint32_t id;
-  bool sheet;  // of a thin body
+  bool sheet;  ///< of a thin body
 
   bool solid() const { return norm2(normal) > 0 && !sheet; }
   std::string name() const { return "#" + std::to_string(id) + " of set " + std::to_string(set); }
@@ -199,8 +199,9 @@ class Surroundings {
 
 /// How near gas is to the particles of bodies.
 struct NearestGas {
-  double distance = std::numeric_limits<double>::infinity();  // of centres, in spacings of the body
-  int inside = 0;                                             // gas particles within bodies
+  /// Least distance of centres, in spacings of the body.
+  double distance = std::numeric_limits<double>::infinity();
+  int inside = 0;  ///< gas particles within bodies
 };
 
 /// Looks at all of it, on the host.

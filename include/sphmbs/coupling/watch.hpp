@@ -20,8 +20,8 @@ namespace sphmbs::coupling {
 
 /// Something that happened to a body and that the equations go on through.
 struct Incident {
-  double time;       // [s]
-  std::string kind;  // "narrow gap" or "through a periodic side", with the sets
+  double time;       ///< [s]
+  std::string kind;  ///< "narrow gap" or "through a periodic side", with the sets
   std::string text;
 };
 

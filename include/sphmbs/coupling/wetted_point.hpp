@@ -23,9 +23,9 @@ mbs::Vector<Space> in_space(const Vec<Dim>& x) {
 /// surface's normal.
 template <int Space>
 struct WettedPoint {
-  mbs::Marker<Space> at;           // [m]
-  mbs::Marker<Space> normal = {};  // of the surface, out of the body, of any length; may be empty
-  double offset = 0;               // of the particle from `at` along the normal [m]
+  mbs::Marker<Space> at;           ///< [m]
+  mbs::Marker<Space> normal = {};  ///< of the surface, out of the body, of any length; may be empty
+  double offset = 0;               ///< of the particle from `at` along the normal [m]
   // In space, in place of a normal: two vectors along the surface, whose product a x b it is.
   std::array<mbs::Marker<Space>, 2> along = {};
 

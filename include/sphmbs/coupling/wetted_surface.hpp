@@ -51,7 +51,7 @@ template <int Dim, execution::ExecutionPolicy Policy = execution::Default,
 class WettedSurface {
  public:
   static constexpr int dim = Dim;
-  static constexpr int space = Dim == 3 ? 3 : 2;  // of the structure
+  static constexpr int space = Dim == 3 ? 3 : 2;  ///< of the structure
   using Motion = Riding<Dim, Rest>;
 
   /// @param rest  motion of the sets that ride on nothing

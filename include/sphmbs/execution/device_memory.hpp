@@ -14,12 +14,12 @@ namespace sphmbs::execution {
 
 /// What has crossed the bus between host and device, counted copy by copy.
 struct BusTraffic {
-  std::uint64_t uploads = 0;     // copies to the device
-  std::uint64_t uploaded = 0;    // [bytes]
-  std::uint64_t downloads = 0;   // copies to the host
-  std::uint64_t downloaded = 0;  // [bytes]
-  std::uint64_t launches = 0;    // loops started on the device
-  std::uint64_t arguments = 0;   // of all loop bodies, which go with the launches [bytes]
+  std::uint64_t uploads = 0;     ///< copies to the device
+  std::uint64_t uploaded = 0;    ///< [bytes]
+  std::uint64_t downloads = 0;   ///< copies to the host
+  std::uint64_t downloaded = 0;  ///< [bytes]
+  std::uint64_t launches = 0;    ///< loops started on the device
+  std::uint64_t arguments = 0;   ///< of all loop bodies, which go with the launches [bytes]
   std::uint64_t bytes() const { return uploaded + downloaded; }
 };
 

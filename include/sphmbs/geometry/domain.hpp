@@ -15,10 +15,10 @@ namespace sphmbs::geometry {
 /// length 0 and a half length that no distance exceeds.
 template <int Dim, class T>
 struct Periodicity {
-  Vec<Dim, T> lower;        // of the box [m]
-  Vec<Dim, T> length;       // of the period, 0 if there is none [m]
-  Vec<Dim, T> half;         // half the period, or the largest number [m]
-  Vec<Dim, T> length_rest;  // what rounding to T left of the period [m]
+  Vec<Dim, T> lower;        ///< of the box [m]
+  Vec<Dim, T> length;       ///< of the period, 0 if there is none [m]
+  Vec<Dim, T> half;         ///< half the period, or the largest number [m]
+  Vec<Dim, T> length_rest;  ///< what rounding to T left of the period [m]
 
   /// The separation to the nearest image, for separations shorter than 1.5 periods.
   template <class N>

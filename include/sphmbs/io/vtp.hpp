@@ -77,8 +77,8 @@ void write_vtp(const std::filesystem::path& path, const Positions& positions,
 
 /// Lines or polygons, each between points that it lists by number.
 struct Cells {
-  std::vector<std::int64_t> connectivity{};  // points of all cells, one cell after the other
-  std::vector<std::int64_t> offsets{};       // end of each cell in `connectivity`
+  std::vector<std::int64_t> connectivity{};  ///< points of all cells, one cell after the other
+  std::vector<std::int64_t> offsets{};       ///< end of each cell in `connectivity`
 
   std::size_t size() const { return offsets.size(); }
   void add(std::initializer_list<std::int64_t> points) {
@@ -94,7 +94,7 @@ struct Cells {
 
 /// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
 struct Mesh {
-  std::vector<double> points{};  // x, y, z of each point [m]
+  std::vector<double> points{};  ///< x, y, z of each point [m]
   Cells lines{};
   Cells polygons{};
   std::vector<PointArray> arrays{};

@@ -73,10 +73,10 @@ class Dynamics {
     powers_ = powers_at(equations_, state_);
   }
 
-  double time() const { return state_.t; }             // [s]
-  const State& state() const { return state_; }        // q, v, vdot, lambda
-  const StartReport& start() const { return start_; }  // how the initial state was made
-  double size() const { return size_; }                // largest extent at t = 0 [m]
+  double time() const { return state_.t; }             ///< [s]
+  const State& state() const { return state_; }        ///< q, v, vdot, lambda
+  const StartReport& start() const { return start_; }  ///< how the initial state was made
+  double size() const { return size_; }                ///< largest extent at t = 0 [m]
   const Structure& structure() const { return structure_; }
   EquationsType& equations() { return equations_; }
   DynamicsStatistics statistics() const {

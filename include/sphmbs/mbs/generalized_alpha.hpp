@@ -24,10 +24,10 @@ namespace sphmbs::mbs {
 /// changes, a_n, which belongs to a time ahead of t_n by a share of the step, is moved there:
 /// vdot_n + (h/h_old) (a_n - vdot_n).
 struct GeneralizedAlpha {
-  double spectral_radius = 0.8;  // at infinite frequency: 1 damps nothing, 0 at once [-]
+  double spectral_radius = 0.8;  ///< at infinite frequency: 1 damps nothing, 0 at once [-]
   Newton newton = {};
-  bool project = true;                  // velocities and accelerations onto the conditions
-  std::optional<double> accuracy = {};  // of a coordinate in a step [m]; without it, fixed steps
+  bool project = true;                  ///< velocities and accelerations onto the conditions
+  std::optional<double> accuracy = {};  ///< of a coordinate in a step [m]; without it, fixed steps
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {
@@ -69,7 +69,7 @@ struct GeneralizedAlpha {
   /// Where a step would lead, which Dynamics::accept makes the state.
   struct Attempt {
     State state;
-    VectorXd before, algorithmic;  // a_n, a_{n+1}
+    VectorXd before, algorithmic;  ///< a_n, a_{n+1}
     NewtonCourse course;
   };
 

@@ -14,14 +14,14 @@ namespace sphmbs::mbs {
 /// component computes its contribution, and which contributions add up to which number.
 struct Layout {
   int coordinates = 0, conditions = 0;
-  std::vector<Role> roles;  // of each unknown
-  std::vector<Slot> slots;  // of all components, type by type, in the order of the adds
-  Index index;              // coordinates of all slots, one list after the other
-  std::size_t vector_size = 0, matrix_size = 0;           // numbers that components compute
-  std::vector<std::size_t> vector_begin, vector_sources;  // what each unknown's residual gathers
-  SparsePattern pattern;                                  // what each matrix entry gathers
-  SparseMatrix zeros;                                     // the matrix, with all entries zero
-  std::vector<double> mass;                               // of M in each matrix entry
+  std::vector<Role> roles;  ///< of each unknown
+  std::vector<Slot> slots;  ///< of all components, type by type, in the order of the adds
+  Index index;              ///< coordinates of all slots, one list after the other
+  std::size_t vector_size = 0, matrix_size = 0;           ///< numbers that components compute
+  std::vector<std::size_t> vector_begin, vector_sources;  ///< what each unknown's residual gathers
+  SparsePattern pattern;                                  ///< what each matrix entry gathers
+  SparseMatrix zeros;                                     ///< the matrix, with all entries zero
+  std::vector<double> mass;                               ///< of M in each matrix entry
 
   int unknowns() const { return coordinates + conditions; }
   const int* own(const Slot& slot) const { return index.data() + slot.index; }

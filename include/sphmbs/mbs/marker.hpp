@@ -12,9 +12,9 @@ namespace sphmbs::mbs {
 /// `index` lists. Joints, loads and sensors know nothing else about the parts they act on.
 template <int Dim>
 struct Marker {
-  Index index = {};                                             // columns of N
-  Matrix<Dim, Dynamic> N = Matrix<Dim, Dynamic>::Zero(Dim, 0);  // [x per coordinate]
-  Vector<Dim> x0 = Vector<Dim>::Zero();                         // [m], or [-] of a direction
+  Index index = {};                                             ///< columns of N
+  Matrix<Dim, Dynamic> N = Matrix<Dim, Dynamic>::Zero(Dim, 0);  ///< [x per coordinate]
+  Vector<Dim> x0 = Vector<Dim>::Zero();                         ///< [m], or [-] of a direction
 
   /// The quantity for all coordinates q of the structure; with v, without x0, its rate.
   Vector<Dim> at(const VectorXd& q) const { return x0 + rate(q); }

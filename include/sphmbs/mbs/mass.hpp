@@ -10,8 +10,8 @@ namespace sphmbs::mbs {
 template <int Dim>
 struct Mass {
   SparseMatrix M;
-  Matrix<Dynamic, Dim> translation;  // T: column k moves every point by one along axis k
-  Matrix<Dynamic, Dim> weight;       // M T
+  Matrix<Dynamic, Dim> translation;  ///< T: column k moves every point by one along axis k
+  Matrix<Dynamic, Dim> weight;       ///< M T
 };
 
 /// Sums the mass matrices of all parts; entries that are zero are not stored.

@@ -21,8 +21,8 @@ namespace sphmbs::mbs {
 class MeanLoad {
  public:
   struct End {
-    VectorXd filtered;  // b_{n+1}
-    VectorXd load;      // Q_{n+1}
+    VectorXd filtered;  ///< b_{n+1}
+    VectorXd load;      ///< Q_{n+1}
   };
 
   MeanLoad() = default;

@@ -23,7 +23,7 @@ template <Part P>
 struct Placed {
   P part;
   std::array<Node, P::nodes> nodes;
-  int number;  // among the parts of this type, from 0
+  int number;  ///< among the parts of this type, from 0
 
   Index index() const {
     Index all;

@@ -11,10 +11,10 @@ namespace sphmbs::mbs {
 /// C (n x n) is scratch.
 struct Slot {
   int n = 0, m = 0;
-  int first_condition = 0;  // of its conditions among all
-  std::size_t index = 0;    // of its list of n coordinates
-  std::size_t vector = 0;   // of its residual
-  std::size_t matrix = 0;   // of its blocks A, B, L
+  int first_condition = 0;  ///< of its conditions among all
+  std::size_t index = 0;    ///< of its list of n coordinates
+  std::size_t vector = 0;   ///< of its residual
+  std::size_t matrix = 0;   ///< of its blocks A, B, L
   bool has_A = true, has_L = false, has_C = false;
 
   std::size_t at_B() const { return matrix + (has_A ? static_cast<std::size_t>(n * n) : 0); }
@@ -42,9 +42,9 @@ Slot slot_of(const Stored& component) {
 
 /// Everything a component may look at while it computes its contribution.
 struct Local {
-  Eigen::Map<VectorXd> q, v, lambda;  // its own coordinates, rates and multipliers
-  double t;                           // [s]
-  double load_factor;                 // share of the loads that acts
+  Eigen::Map<VectorXd> q, v, lambda;  ///< its own coordinates, rates and multipliers
+  double t;                           ///< [s]
+  double load_factor;                 ///< share of the loads that acts
 };
 
 /// What a component contributes: r to the left of eq. (25), Phi, and where asked A = dr/dq + w
@@ -52,9 +52,9 @@ struct Local {
 struct Contribution {
   Eigen::Map<VectorXd> r, phi;
   Eigen::Map<MatrixXd> A, B, L;
-  Eigen::Map<MatrixXd> C;  // scratch, n x n
-  double w;                // dv/dq of the integrator [1/s]
-  bool tangent;            // whether A and L are asked for; B always is
+  Eigen::Map<MatrixXd> C;  ///< scratch, n x n
+  double w;                ///< dv/dq of the integrator [1/s]
+  bool tangent;            ///< whether A and L are asked for; B always is
 };
 
 template <Element E>

@@ -24,17 +24,17 @@ enum class Redundant { remove, refuse };
 /// projected away is meant to be rounding: the smallest change in kinetic energy moves light,
 /// flexible parts most, and a whole velocity that is missing would whip them.
 struct StartOptions {
-  double position_tolerance = 1e-6;  // on Phi, over the structure's size [-]
-  double velocity_tolerance = 1e-3;  // on dPhi/dt, over the largest rate or the size a second [-]
+  double position_tolerance = 1e-6;  ///< on Phi, over the structure's size [-]
+  double velocity_tolerance = 1e-3;  ///< on dPhi/dt, over the largest rate or the size a second [-]
   Redundant redundant = Redundant::remove;
 };
 
 /// What was done to make the initial state consistent.
 struct StartReport {
-  double position_correction = 0;       // largest change of a coordinate
-  double velocity_correction = 0;       // largest change of a rate
-  std::vector<int> redundant = {};      // conditions removed
-  std::vector<std::string> notes = {};  // the same for people, a sentence each
+  double position_correction = 0;       ///< largest change of a coordinate
+  double velocity_correction = 0;       ///< largest change of a rate
+  std::vector<int> redundant = {};      ///< conditions removed
+  std::vector<std::string> notes = {};  ///< the same for people, a sentence each
 };
 
 /// Makes a state consistent: Phi = 0, Phi_q v + Phi_t = 0, and accelerations and multipliers from

@@ -13,10 +13,10 @@ namespace sphmbs::mbs {
 
 /// How loads are raised in statics.
 struct StaticsOptions {
-  double first_step = 1;  // share of the loads that is tried first [-]
+  double first_step = 1;  ///< share of the loads that is tried first [-]
   double smallest_step = 1e-6;
-  int relaxations = 60;  // at most, a load step, where Newton's method fails
-  double t = 0;          // time at which loads and drives are taken [s]
+  int relaxations = 60;  ///< at most, a load step, where Newton's method fails
+  double t = 0;          ///< time at which loads and drives are taken [s]
   Newton newton = {.max_iterations = 30, .refactor = Refactor::every_iteration};
   StartOptions start = {};
 

@@ -63,7 +63,7 @@ class Structure {
   static_assert(dim == 2 || dim == 3, "a structure has at least one part");
   static_assert((fits<Types>(dim) && ...), "all parts of a structure have the same dimension");
 
-  Vector<dim> gravity = Vector<dim>::Zero();  // [m/s^2]
+  Vector<dim> gravity = Vector<dim>::Zero();  ///< [m/s^2]
 
   /// New coordinates and their rates.
   /// @throws InvalidInput unless both are finite and of the same size.

@@ -44,7 +44,7 @@ template <int Dim, class T>
 struct CellGrid {
   static constexpr int stencil = 2;
   Vec<Dim, T> lower;
-  Vec<Dim, T> inverse_side;  // [1/m]
+  Vec<Dim, T> inverse_side;  ///< [1/m]
   int count[Dim];
   bool periodic[Dim];
 

@@ -21,9 +21,9 @@ struct NeighbourView {
 /// How far particles see: a pair is listed while its distance is below
 /// support (h_a + h_b) / 2 + skin, eq. (24).
 struct Reach {
-  double support;  // of the kernel, in smoothing lengths [-]
-  double skin;     // margin that lets particles move before the lists must be made anew [m]
-  double h_max;    // largest smoothing length [m]
+  double support;  ///< of the kernel, in smoothing lengths [-]
+  double skin;     ///< margin that lets particles move before the lists must be made anew [m]
+  double h_max;    ///< largest smoothing length [m]
 
   double largest() const { return support * h_max + skin; }
 };

@@ -59,20 +59,21 @@ SPHMBS_INLINE Vec<Dim, T> split(const Vec<Dim>& x, Vec<Dim, T>& rounded) {
 /// metre of depth: m in kg/m; on a line per square metre of section: kg/m^2.
 template <int Dim, class T>
 struct FieldsView {
-  T* r[Dim];       // position [m]
-  T* rest[Dim];    // what rounding to T left of the position [m]; null where T is double
-  T* v[Dim];       // velocity [m/s]
-  T* rho;          // density [kg/m^3]
-  T* e;            // specific internal energy [J/kg]
-  T* h;            // smoothing length [m]
-  T* m;            // mass [kg]
-  T* normal[Dim];  // of the surface a virtual particle lies behind, out of the solid; null if none
-  T* depth;        // of a virtual particle below its surface [m]; null if none
-  T* patch;        // width of the patch of a thin body that a virtual particle is [m]; null if none
-  std::uint8_t* sheet;  // what a virtual particle is of a thin body; null if there is none
+  T* r[Dim];       ///< position [m]
+  T* rest[Dim];    ///< what rounding to T left of the position [m]; null where T is double
+  T* v[Dim];       ///< velocity [m/s]
+  T* rho;          ///< density [kg/m^3]
+  T* e;            ///< specific internal energy [J/kg]
+  T* h;            ///< smoothing length [m]
+  T* m;            ///< mass [kg]
+  T* normal[Dim];  ///< of the surface a virtual particle lies behind, out of the solid; null if
+                   ///< none
+  T* depth;        ///< of a virtual particle below its surface [m]; null if none
+  T* patch;  ///< width of the patch of a thin body that a virtual particle is [m]; null if none
+  std::uint8_t* sheet;  ///< what a virtual particle is of a thin body; null if there is none
   std::uint32_t*
-      id;  // place in the initial cloud, or later ones for gas that comes in; never changes
-  std::uint8_t* set;  // gas, which set of virtual particles, or which opening
+      id;  ///< place in the initial cloud, or later ones for gas that comes in; never changes
+  std::uint8_t* set;  ///< gas, which set of virtual particles, or which opening
 
   SPHMBS_INLINE Vec<Dim, T> position(std::size_t i) const { return at(r, i); }
   SPHMBS_INLINE Vec<Dim, T> velocity(std::size_t i) const { return at(v, i); }
@@ -108,16 +109,16 @@ struct FieldsView {
 /// the work of that force [W/kg].
 template <int Dim, class T>
 struct RatesView {
-  T* r[Dim];             // [m/s], eq. (14)
-  T* v[Dim];             // [m/s^2], eq. (21)
-  T* rho;                // [kg/(m^3 s)], eq. (20)
-  T* e;                  // [W/kg], eq. (22)
-  T* h;                  // [m/s], eq. (23)
-  std::uint16_t* pairs;  // neighbours inside the support at the last evaluation
-  std::uint16_t* falls;  // of them those whose reconstruction was refused
+  T* r[Dim];             ///< [m/s], eq. (14)
+  T* v[Dim];             ///< [m/s^2], eq. (21)
+  T* rho;                ///< [kg/(m^3 s)], eq. (20)
+  T* e;                  ///< [W/kg], eq. (22)
+  T* h;                  ///< [m/s], eq. (23)
+  std::uint16_t* pairs;  ///< neighbours inside the support at the last evaluation
+  std::uint16_t* falls;  ///< of them those whose reconstruction was refused
   // What the gas does to particles of openings, by their mass, at the last stage; null if none are.
-  T* push[Dim];  // force [m/s^2]
-  T* heating;    // power, less the work of that force [W/kg]
+  T* push[Dim];  ///< force [m/s^2]
+  T* heating;    ///< power, less the work of that force [W/kg]
 
   /// Adds to a rate whose earlier stages have the weight `keep`; with 0 they are not read.
   static SPHMBS_INLINE void write(T* rate, std::size_t i, T value, T keep) {

@@ -13,16 +13,16 @@ namespace sphmbs::particles {
 /// First derivatives of the gas at a particle.
 template <int Dim, class N>
 struct Slopes {
-  Vec<Dim, N> rho;     // of density [kg/m^4]
-  Vec<Dim, N> p;       // of pressure [Pa/m]
-  Vec<Dim, N> v[Dim];  // of each component of velocity [1/s]
+  Vec<Dim, N> rho;     ///< of density [kg/m^4]
+  Vec<Dim, N> p;       ///< of pressure [Pa/m]
+  Vec<Dim, N> v[Dim];  ///< of each component of velocity [1/s]
 };
 
 /// The surface that a virtual particle lies behind.
 template <int Dim, class N>
 struct Surface {
-  Vec<Dim, N> normal;  // unit vector, out of the solid into the gas [-]
-  N depth;             // of the particle below the surface [m]
+  Vec<Dim, N> normal;  ///< unit vector, out of the solid into the gas [-]
+  N depth;             ///< of the particle below the surface [m]
 };
 
 /// Numbers that either of the two takes in memory. A gas particle has slopes, a virtual particle a

@@ -16,10 +16,10 @@ struct AroundOpening {
   // Over what is in front of it, by the distance across the face too.
   N weight = N(0);
   N p = N(0);
-  N u = N(0);          // velocity into the gas [m/s]
-  N impedance = N(0);  // rho c [kg/(m^2 s)]
+  N u = N(0);          ///< velocity into the gas [m/s]
+  N impedance = N(0);  ///< rho c [kg/(m^2 s)]
   N c = N(0);
-  N distance = N(0);  // across the face [m]
+  N distance = N(0);  ///< across the face [m]
   // Over all.
   N number = N(0);
   Vec<Dim, N> v = Vec<Dim, N>::all(N(0));
@@ -75,8 +75,8 @@ struct EvaluateOpening {
   const particles::OpeningView<dim, T>* openings;
   const std::uint8_t* set;
   particles::RatesView<dim, T> rates;
-  T keep;    // weight of the rates that are there already [-]
-  T border;  // how far particles see across periodic borders [m]
+  T keep;    ///< weight of the rates that are there already [-]
+  T border;  ///< how far particles see across periodic borders [m]
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
     if (!particles::is_opening(set[i])) return;

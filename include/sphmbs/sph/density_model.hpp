@@ -28,7 +28,7 @@ struct Integrated {
 /// conserved all the same. In slow gas the disorder of particles becomes noise of the pressure.
 struct Relaxed {
   static constexpr bool relaxes = true;
-  double rate = 0.2;  // [-]
+  double rate = 0.2;  ///< [-]
 
   /// @throws InvalidInput unless the rate lies between 0 and 1, beyond which steps may be unstable.
   void check() const {

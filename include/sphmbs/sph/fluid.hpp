@@ -129,10 +129,10 @@ class Fluid {
     if (openings_.moved(survey_.fastest_move() * dt, lists_.outdated(0))) let_pass();
   }
 
-  double time() const { return time_; }  // of the state y [s]
+  double time() const { return time_; }  ///< of the state y [s]
   std::size_t size() const { return particles_.size(); }
   std::size_t gas_count() const { return gas_count_; }
-  std::size_t opening_count() const { return openings_.particle_count(); }  // in their zones
+  std::size_t opening_count() const { return openings_.particle_count(); }  ///< in their zones
   std::size_t virtual_count() const { return size() - gas_count_ - opening_count(); }
   const Scheme& scheme() const { return scheme_; }
   const geometry::Domain<dim>& domain() const { return domain_; }

@@ -12,7 +12,7 @@ template <class T>
 struct Gathered {
   neighbours::NeighbourView neighbours;
   const T* records;
-  const T* vicinities;  // null where the scheme needs none
+  const T* vicinities;  ///< null where the scheme needs none
 };
 
 /// Calls term(record, vicinity, sum) for all neighbours of particle i, `lanes` at once, in the

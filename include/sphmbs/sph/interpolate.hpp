@@ -14,10 +14,10 @@ namespace sphmbs::sph {
 /// particle is seen.
 template <int Dim>
 struct Sample {
-  Vec<Dim> v;  // velocity [m/s]
-  double rho;  // density [kg/m^3]
-  double p;    // pressure [Pa]
-  int seen;    // gas particles whose support covers the point
+  Vec<Dim> v;  ///< velocity [m/s]
+  double rho;  ///< density [kg/m^3]
+  double p;    ///< pressure [Pa]
+  int seen;    ///< gas particles whose support covers the point
 };
 
 template <int Dim>

@@ -15,7 +15,7 @@ namespace sphmbs::sph {
 struct Xsph {
   static constexpr bool acts = true;
   static constexpr bool shifts = false;
-  double zeta = 0.5;  // as in the paper [-]
+  double zeta = 0.5;  ///< as in the paper [-]
 
   /// @throws InvalidInput unless zeta lies between 0 and 1.
   void check() const { expects(zeta >= 0 && zeta <= 1, "XSPH zeta", zeta, "between 0 and 1"); }
@@ -40,9 +40,9 @@ struct NoXsph {
 struct Shifting {
   static constexpr bool acts = true;
   static constexpr bool shifts = true;
-  double strength = 0.5;  // [-]
-  double limit = 1;       // [-]
-  double zeta = 0.5;      // of XSPH [-]
+  double strength = 0.5;  ///< [-]
+  double limit = 1;       ///< [-]
+  double zeta = 0.5;      ///< of XSPH [-]
 
   /// @throws InvalidInput for a negative strength or limit, or zeta outside 0 to 1.
   void check() const {

@@ -17,15 +17,15 @@ SPHMBS_INLINE auto meets_wall(const particles::Record<Dim, T>& a,
 /// What is found between the particles a and b of a pair.
 template <int Dim, class N>
 struct Between {
-  riemann::Star<N> star;  // velocity along the line from a to b, and pressure
-  N u_a;                  // velocity of a along that line, eq. (17) [m/s]
-  N rho_a;                // densities that weigh the face between them [kg/m^3]
+  riemann::Star<N> star;  ///< velocity along the line from a to b, and pressure
+  N u_a;                  ///< velocity of a along that line, eq. (17) [m/s]
+  N rho_a;                ///< densities that weigh the face between them [kg/m^3]
   N rho_b;
-  N fell = N(0);                                 // 1 where a reconstruction was refused
-  Vec<Dim, N> relative;                          // v_b - v_a, b's as a sees it [m/s]
-  Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));       // v_a - v_b for the viscous stress [m/s]
-  Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  // velocity by which that stress heats a [m/s]
-  N dT = N(0);                                   // T_a - T_b for the conduction of heat [K]
+  N fell = N(0);                                 ///< 1 where a reconstruction was refused
+  Vec<Dim, N> relative;                          ///< v_b - v_a, b's as a sees it [m/s]
+  Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));       ///< v_a - v_b for the viscous stress [m/s]
+  Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  ///< velocity by which that stress heats a [m/s]
+  N dT = N(0);                                   ///< T_a - T_b for the conduction of heat [K]
   // Where gas slips only the part of the drag along the normal acts.
   N slips = N(0);
   Vec<Dim, N> normal = Vec<Dim, N>::all(N(0));

@@ -12,10 +12,10 @@ namespace sphmbs::sph {
 template <int Dim>
 struct Passed {
   std::uint64_t particles = 0;
-  double mass = 0;         // [kg]
-  double volume = 0;       // sum m / rho [m^3]
-  Vec<Dim> momentum = {};  // [kg m/s]
-  double energy = 0;       // kinetic and internal [J]
+  double mass = 0;         ///< [kg]
+  double volume = 0;       ///< sum m / rho [m^3]
+  Vec<Dim> momentum = {};  ///< [kg m/s]
+  double energy = 0;       ///< kinetic and internal [J]
 
   SPHMBS_INLINE void combine(const Passed& o) {
     particles += o.particles;

@@ -20,8 +20,8 @@ struct EvaluateRates {
   Gathered<T> from;
   const std::uint8_t* set;
   particles::RatesView<dim, T> rates;
-  T keep;    // weight of the rates that are there already [-]
-  T border;  // how far particles see across periodic borders [m]
+  T keep;    ///< weight of the rates that are there already [-]
+  T border;  ///< how far particles see across periodic borders [m]
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto a = particles::load_record<dim>(from.records, i);

@@ -66,7 +66,7 @@ struct RiemannSph {
   static constexpr bool vicinity = Reconstruction::slopes || Wall::surfaces;
 
   Eos eos{};
-  Vec<dim> acceleration{};  // body force per mass, g [m/s^2]
+  Vec<dim> acceleration{};  ///< body force per mass, g [m/s^2]
   /// A pressure that everything is at: forces are those of p - background, so that its share in the
   /// noise of disordered particles vanishes. Momentum is conserved as before, and instead of the
   /// energy its sum with background times volume (exactly so with VolumeForm and Integrated). The

@@ -16,11 +16,11 @@ inline constexpr int sloping_fields = 2 + Dim;
 /// Sums over neighbours for the slopes of a particle: F = -(dW/dr) / r weighs.
 template <int Dim, class N>
 struct SlopeSums {
-  Vec<Dim, N> moment[Dim];                 // sum V_b F d d^T [-]
-  Vec<Dim, N> slope[sloping_fields<Dim>];  // sum V_b F d (f_b - f_a)
-  N low[sloping_fields<Dim>];              // ranges of f_b - f_a
+  Vec<Dim, N> moment[Dim];                 ///< sum V_b F d d^T [-]
+  Vec<Dim, N> slope[sloping_fields<Dim>];  ///< sum V_b F d (f_b - f_a)
+  N low[sloping_fields<Dim>];              ///< ranges of f_b - f_a
   N high[sloping_fields<Dim>];
-  N reach2 = N(0);  // squared distance of the farthest neighbour [m^2]
+  N reach2 = N(0);  ///< squared distance of the farthest neighbour [m^2]
 
   SPHMBS_INLINE SlopeSums() {
 #pragma GCC unroll 3
@@ -90,7 +90,7 @@ struct EvaluateSlopes {
   Gathered<T> from;
   const std::uint8_t* set;
   T* vicinities;
-  T border;  // how far particles see across periodic borders [m]
+  T border;  ///< how far particles see across periodic borders [m]
 
   SPHMBS_INLINE void operator()(std::size_t i) const {
     if (!Scheme::Wall::evolves && particles::is_virtual(set[i])) return;

@@ -19,7 +19,7 @@ namespace sphmbs::sph {
 /// State of a particle: what eqs. (27)-(29) step.
 template <int Dim, class T>
 struct Stepped {
-  Vec<Dim> r;  // in full
+  Vec<Dim> r;  ///< in full
   Vec<Dim, T> v;
   T rho;
   T e;
@@ -35,9 +35,9 @@ struct Advance {
   particles::FieldsView<Dim, T> fields;
   particles::RatesView<Dim, T> rates;
   Motion motion;
-  T scale;      // [s]
-  double time;  // of the state y [s]
-  double dt;    // [s]
+  T scale;      ///< [s]
+  double time;  ///< of the state y [s]
+  double dt;    ///< [s]
 
   SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
     Stepped<Dim, T> y{fields.place(i), fields.velocity(i), fields.rho[i], fields.e[i], fields.h[i]};

@@ -16,11 +16,11 @@ inline constexpr std::array<std::string_view, 5> phase_names{"neighbours", "slop
 /// What a run has done so far.
 struct Statistics {
   std::uint64_t steps = 0;
-  std::uint64_t evaluations = 0;        // of the rates
-  std::uint64_t rebuilds = 0;           // of the neighbour lists
-  std::uint64_t pair_interactions = 0;  // ordered pairs inside the support, over all evaluations
-  std::uint64_t falls =
-      0;  // of them those that met a reconstruction not admissible and did without
+  std::uint64_t evaluations = 0;        ///< of the rates
+  std::uint64_t rebuilds = 0;           ///< of the neighbour lists
+  std::uint64_t pair_interactions = 0;  ///< ordered pairs inside the support, over all evaluations
+  /// Of them those that met a reconstruction not admissible and did without.
+  std::uint64_t falls = 0;
   std::array<double, phase_names.size()> seconds{};
 
   /// Counts an evaluation of the rates over so many pairs.

@@ -34,9 +34,9 @@ struct Inviscid {
 /// sticks to. Angular momentum is conserved by the second term alone.
 struct Newtonian {
   static constexpr bool acts = true;
-  double viscosity;         // mu [Pa s]
-  double conductivity = 0;  // k [W/(m K)]
-  double bulk = 0;          // zeta [Pa s]
+  double viscosity;         ///< mu [Pa s]
+  double conductivity = 0;  ///< k [W/(m K)]
+  double bulk = 0;          ///< zeta [Pa s]
 
   /// What b takes from the acceleration of a [m/s^2].
   /// @param share  m_b F / (rho_a rho_b)

@@ -14,7 +14,7 @@ namespace sphmbs::sph {
 
 /// Smallest value of a limit on the step, and the particle that sets it.
 struct Limit {
-  double dt = std::numeric_limits<double>::infinity();  // [s]
+  double dt = std::numeric_limits<double>::infinity();  ///< [s]
   std::uint32_t id = 0;
 
   SPHMBS_INLINE void combine(const Limit& other) {
@@ -29,16 +29,16 @@ template <int Dim>
 struct Survey {
   Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
-  double h_rate = 0;         // largest rate of change of h [m/s]
-  std::uint64_t pairs = 0;   // ordered pairs inside the support
-  std::uint64_t falls = 0;   // of them those whose reconstruction was refused
-  Vec<Dim> wall_force = {};  // of the gas on all virtual particles and openings [N]
-  double wall_power = 0;     // of the gas on virtual particles and openings, sum f.v [W]
-  double layer_power = 0;    // see RatesView; of openings heating too [W]
-  Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
-  Limit courant;             // h / (c + h |div v|)
-  Limit acceleration;        // sqrt(h / |a|)
-  Limit diffusion;           // h^2 / (2 nu)
+  double h_rate = 0;         ///< largest rate of change of h [m/s]
+  std::uint64_t pairs = 0;   ///< ordered pairs inside the support
+  std::uint64_t falls = 0;   ///< of them those whose reconstruction was refused
+  Vec<Dim> wall_force = {};  ///< of the gas on all virtual particles and openings [N]
+  double wall_power = 0;     ///< of the gas on virtual particles and openings, sum f.v [W]
+  double layer_power = 0;    ///< see RatesView; of openings heating too [W]
+  Vec<Dim> momentum = {};    ///< of the gas at this stage [kg m/s]
+  Limit courant;             ///< h / (c + h |div v|)
+  Limit acceleration;        ///< sqrt(h / |a|)
+  Limit diffusion;           ///< h^2 / (2 nu)
 
   SPHMBS_INLINE void combine(const Survey& o) {
     for (int k = 0; k < Dim; ++k) {
@@ -75,7 +75,7 @@ struct SurveyParticle {
   particles::FieldsView<dim, T> fields;
   particles::RatesView<dim, T> rates;
   const T* records;
-  double share;  // of one evaluation in the rates, which are a weighted sum of several [-]
+  double share;  ///< of one evaluation in the rates, which are a weighted sum of several [-]
 
   SPHMBS_INLINE Survey<dim> operator()(std::size_t i) const {
     const particles::Record<dim, T> s = particles::load_record<dim>(records, i);
@@ -116,9 +116,9 @@ struct SurveyParticle {
 
 /// The length of the next step and why it is no longer.
 struct StepLimit {
-  double dt;                // [s]
-  std::string_view reason;  // "sound", "acceleration", "diffusion" or "fixed"
-  std::uint32_t id;         // of the particle that limits; 0 where none does
+  double dt;                ///< [s]
+  std::string_view reason;  ///< "sound", "acceleration", "diffusion" or "fixed"
+  std::uint32_t id;         ///< of the particle that limits; 0 where none does
 };
 
 /// cfl times the smallest of the limits.

@@ -10,12 +10,12 @@ namespace sphmbs::sph {
 /// Sums over all particles; planar gas per metre of depth.
 template <int Dim>
 struct Totals {
-  double mass = 0;              // of the gas [kg]
-  double volume = 0;            // of the gas, sum m / rho [m^3]
-  Vec<Dim> momentum = {};       // of the gas [kg m/s]
-  double kinetic = 0;           // energy of the gas [J]
-  double internal = 0;          // energy of the gas [J]
-  double virtual_internal = 0;  // energy of the virtual particles [J]
+  double mass = 0;              ///< of the gas [kg]
+  double volume = 0;            ///< of the gas, sum m / rho [m^3]
+  Vec<Dim> momentum = {};       ///< of the gas [kg m/s]
+  double kinetic = 0;           ///< energy of the gas [J]
+  double internal = 0;          ///< energy of the gas [J]
+  double virtual_internal = 0;  ///< energy of the virtual particles [J]
 
   /// Kinetic and internal energy of the gas [J].
   double energy() const { return kinetic + internal; }
@@ -50,7 +50,7 @@ struct TotalsOfParticle {
 
 /// The largest smoothing length, and the particle that has it.
 struct Largest {
-  double h = 0;  // [m]
+  double h = 0;  ///< [m]
   std::uint32_t id = 0;
   SPHMBS_INLINE void combine(const Largest& o) {
     const bool larger = o.h > h;
@@ -79,7 +79,7 @@ Largest widest_particle(particles::Particles<Dim, T, Policy>& particles) {
 /// them from gas neighbours alone. For planar gas per metre of depth.
 template <int Dim>
 struct Force {
-  Vec<Dim> f = {};  // [N]
+  Vec<Dim> f = {};  ///< [N]
   SPHMBS_INLINE void combine(const Force& o) { f += o.f; }
 };
 

@@ -54,14 +54,14 @@ struct Beam {
   static constexpr int drawn = 1;
   using Material = Vector<3>;
 
-  double length = 0;                  // unstretched [m]
-  double width = 0;                   // along y [m]
-  double height = 0;                  // along z [m]
-  double density = 0;                 // [kg/m^3]
-  double youngs_modulus = 0;          // E [Pa]
-  double poisson_ratio = 0.3;         // nu [-]
-  double shear_correction = 5.0 / 6;  // k [-]
-  double damping = 0;                 // relaxation time of Kelvin and Voigt [s]
+  double length = 0;                  ///< unstretched [m]
+  double width = 0;                   ///< along y [m]
+  double height = 0;                  ///< along z [m]
+  double density = 0;                 ///< [kg/m^3]
+  double youngs_modulus = 0;          ///< E [Pa]
+  double poisson_ratio = 0.3;         ///< nu [-]
+  double shear_correction = 5.0 / 6;  ///< k [-]
+  double damping = 0;                 ///< relaxation time of Kelvin and Voigt [s]
 
   /// @throws InvalidInput unless -1 < nu < 0.5, damping is not negative and the others are
   /// positive.
@@ -78,10 +78,10 @@ struct Beam {
     expects(std::isfinite(damping) && damping >= 0, "damping", damping, "zero or positive [s]");
   }
 
-  double area() const { return width * height; }                                     // [m^2]
-  double second_moment_y() const { return area() * height * height / 12; }           // of z^2 [m^4]
-  double second_moment_z() const { return area() * width * width / 12; }             // of y^2 [m^4]
-  double shear_modulus() const { return youngs_modulus / (2 + 2 * poisson_ratio); }  // G [Pa]
+  double area() const { return width * height; }                            ///< [m^2]
+  double second_moment_y() const { return area() * height * height / 12; }  ///< of z^2 [m^4]
+  double second_moment_z() const { return area() * width * width / 12; }    ///< of y^2 [m^4]
+  double shear_modulus() const { return youngs_modulus / (2 + 2 * poisson_ratio); }  ///< G [Pa]
 
   /// M = density * integral of N^T N dV, exact.
   Matrix<dofs, dofs> mass_matrix() const {

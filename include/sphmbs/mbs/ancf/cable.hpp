@@ -40,11 +40,11 @@ struct Cable {
   static constexpr int drawn = 1;
   using Material = Vector<1>;
 
-  double length = 0;             // unstretched [m]
-  double axial_stiffness = 0;    // EA [N]
-  double bending_stiffness = 0;  // EI [N m^2]
-  double mass_per_length = 0;    // [kg/m]
-  double damping = 0;            // relaxation time of Kelvin and Voigt [s]
+  double length = 0;             ///< unstretched [m]
+  double axial_stiffness = 0;    ///< EA [N]
+  double bending_stiffness = 0;  ///< EI [N m^2]
+  double mass_per_length = 0;    ///< [kg/m]
+  double damping = 0;            ///< relaxation time of Kelvin and Voigt [s]
 
   /// EA = E pi R^2, EI = E pi R^4/4, mass per length rho pi R^2.
   static Cable of(double length, const CircularSection& section, double damping = 0) {

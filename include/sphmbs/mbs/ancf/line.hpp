@@ -31,7 +31,7 @@ struct Line {
   };
 
   std::vector<Placed<E>> elements;
-  double length;  // unstretched [m]
+  double length;  ///< unstretched [m]
 
   /// Where s is, from 0 at the start to length at the end. At a border it is the element that
   /// begins there; beyond the ends, the first or the last one, with x outside of it.

@@ -37,14 +37,14 @@ struct LineSpec {
   static constexpr int dim = E::dim;
   using Spin = std::conditional_t<dim == 2, double, Vector<3>>;
 
-  Vector<dim> from = Vector<dim>::Zero();  // [m]
-  Vector<dim> to = Vector<dim>::Zero();    // [m]
+  Vector<dim> from = Vector<dim>::Zero();  ///< [m]
+  Vector<dim> to = Vector<dim>::Zero();    ///< [m]
   int elements = 0;
 
-  double radius = 0;          // of a cable with circular section [m]
-  double density = 0;         // [kg/m^3]
-  double youngs_modulus = 0;  // [Pa]
-  double damping = 0;         // relaxation time of Kelvin and Voigt [s]
+  double radius = 0;          ///< of a cable with circular section [m]
+  double density = 0;         ///< [kg/m^3]
+  double youngs_modulus = 0;  ///< [Pa]
+  double damping = 0;         ///< relaxation time of Kelvin and Voigt [s]
   /// In place of these four: an element like the ones to make; its length is not read.
   std::optional<E> prototype = {};
 
@@ -59,7 +59,7 @@ struct LineSpec {
   /// Rates at the start add up: those of a rigid motion, the spin being about the start of the
   /// line,
   Vector<dim> velocity = Vector<dim>::Zero();  // [m/s]
-  Spin angular_velocity = [] {                 // [rad/s]
+  Spin angular_velocity = [] {                 ///< [rad/s]
     if constexpr (dim == 2)
       return 0.0;
     else

@@ -35,7 +35,7 @@ namespace sphmbs::mbs::ancf {
 /// parallel.
 template <class Shape = Acm>
 struct Plate {
-  using Material = Vector<2>;  // x in [0, length], y in [0, width] [m]
+  using Material = Vector<2>;  ///< x in [0, length], y in [0, width] [m]
   static constexpr std::string_view label = "plate";
   static constexpr int dim = 3;
   static constexpr int nodes = 4;
@@ -43,13 +43,13 @@ struct Plate {
   static constexpr int dofs = nodes * node_dofs;
   static constexpr int drawn = 2;
 
-  double length = 0;           // along x [m]
-  double width = 0;            // along y [m]
-  double thickness = 0;        // [m]
-  double density = 0;          // [kg/m^3]
-  double youngs_modulus = 0;   // [Pa]
-  double poisson_ratio = 0.3;  // [-]
-  double damping = 0;          // tau, relaxation time of Kelvin and Voigt [s]
+  double length = 0;           ///< along x [m]
+  double width = 0;            ///< along y [m]
+  double thickness = 0;        ///< [m]
+  double density = 0;          ///< [kg/m^3]
+  double youngs_modulus = 0;   ///< [Pa]
+  double poisson_ratio = 0.3;  ///< [-]
+  double damping = 0;          ///< tau, relaxation time of Kelvin and Voigt [s]
 
   /// @throws InvalidInput unless sizes, density and Young's modulus are positive, Poisson's ratio
   /// is above -1 and below 0.5, and the damping is not negative; all finite.

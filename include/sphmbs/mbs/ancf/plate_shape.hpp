@@ -44,7 +44,7 @@ struct LineFunctions {
 /// Pogorelov (2003) take for the thin plate with r, r_x, r_y at its nodes. The surface is
 /// continuous between elements; its normal is continuous at nodes and along edges only nearly so.
 struct Acm {
-  static constexpr int node_functions = 3;  // of r, r_x, r_y
+  static constexpr int node_functions = 3;  ///< of r, r_x, r_y
 
   /// Function f of the node at the ends i, j of the unit square, differentiated ds and dt times.
   static constexpr double value(int f, int i, int j, double s, double t, int ds, int dt) {
@@ -58,7 +58,7 @@ struct Acm {
 /// Bicubic Hermite polynomials (Bogner, Fox and Schmit 1965) for plates with r, r_x, r_y, r_xy at
 /// their nodes: the surface and its normal are continuous.
 struct Bicubic {
-  static constexpr int node_functions = 4;  // of r, r_x, r_y, r_xy
+  static constexpr int node_functions = 4;  ///< of r, r_x, r_y, r_xy
 
   /// As Acm::value.
   static constexpr double value(int f, int i, int j, double s, double t, int ds, int dt) {
@@ -86,11 +86,11 @@ template <class Shape, int n>
 struct PlateTable {
   static constexpr int functions = PlateFunctions<Shape>::size;
   static constexpr int points = n * n;
-  static constexpr int derivatives = 5;  // d/ds, d/dt, dss, dtt, dst
+  static constexpr int derivatives = 5;  ///< d/ds, d/dt, dss, dtt, dst
   static constexpr std::array<int, 5> ds = {1, 0, 2, 0, 1}, dt = {0, 1, 0, 2, 1};
 
   using AtPoints = detail::Array<double, points>;
-  alignas(64) AtPoints weight = {};  // sum 1
+  alignas(64) AtPoints weight = {};  ///< sum 1
   alignas(64) detail::Array<AtPoints, functions> value = {};
   alignas(64) detail::Array<AtPoints, functions> derivative[derivatives] = {};
 

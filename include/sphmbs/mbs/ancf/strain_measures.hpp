@@ -19,7 +19,7 @@ struct Jet {
 /// of Gerstmayr and Shabana 2006. Five Gauss points for both terms.
 struct Green {
   static constexpr int axial_points = 5, bending_points = 5;
-  static constexpr int curvature_power = 3;  // n in |r' x r''| / |r'|^n
+  static constexpr int curvature_power = 3;  ///< n in |r' x r''| / |r'|^n
 
   template <class S>
   static Jet<S> axial(const S& a) {

@@ -14,9 +14,9 @@ namespace sphmbs::mbs::forces {
 /// Distance of a surface from a point, in the frame of the surface.
 template <int Dim>
 struct Distance {
-  double value;                // positive outside [m]
-  Vector<Dim> normal;          // outwards, its gradient
-  Matrix<Dim, Dim> curvature;  // its Hessian [1/m]
+  double value;                ///< positive outside [m]
+  Vector<Dim> normal;          ///< outwards, its gradient
+  Matrix<Dim, Dim> curvature;  ///< its Hessian [1/m]
 };
 
 /// The half space below the plane through the origin of a frame, across its last vector.
@@ -34,7 +34,7 @@ struct Plane {
 template <int Dim>
 struct Sphere {
   static constexpr int dim = Dim;
-  double radius = 0;  // [m]
+  double radius = 0;  ///< [m]
 
   Distance<Dim> distance(const Vector<Dim>& x) const {
     const double length = x.norm();
@@ -62,12 +62,12 @@ struct Contact {
   static constexpr int dim = Surface::dim;
 
   Marker<dim> point = {};
-  double radius = 0;  // of the ball around the point [m]
-  Frame<dim> frame = joints::ground_frame<dim>(Vector<dim>::Zero());  // of the surface
+  double radius = 0;  ///< of the ball around the point [m]
+  Frame<dim> frame = joints::ground_frame<dim>(Vector<dim>::Zero());  ///< of the surface
   Surface surface = {};
   Penalty law = {};
-  double friction = 0;           // mu [-]
-  double creep_velocity = 1e-2;  // w0 [m/s]
+  double friction = 0;           ///< mu [-]
+  double creep_velocity = 1e-2;  ///< w0 [m/s]
   std::string label = "contact";
   Marker<RelativePosition<dim>::size> y =  // follows from the others
       RelativePosition<dim>::y(frame, point);

@@ -23,12 +23,12 @@ struct Couple {
 
   Marker<3> u = {};
   Marker<3> w = {};
-  Marker<3> against_u = {};  // takes the reaction; the ground does by default
+  Marker<3> against_u = {};  ///< takes the reaction; the ground does by default
   Marker<3> against_w = {};
-  Vector<3> value = Vector<3>::Zero();            // m [N m]
-  std::function<Vector<3>(double)> history = {};  // m(t) [N m]; where given, in place of value
+  Vector<3> value = Vector<3>::Zero();            ///< m [N m]
+  std::function<Vector<3>(double)> history = {};  ///< m(t) [N m]; where given, in place of value
   std::string label = "couple";
-  Marker<12> y = stacked(u, w, against_u, against_w);  // follows from the others
+  Marker<12> y = stacked(u, w, against_u, against_w);  ///< follows from the others
 
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
@@ -50,7 +50,7 @@ struct Couple {
     add_tangent(y, K, k);
   }
 
-  double potential(VectorIn, double) const { return 0; }  // its work depends on the way
+  double potential(VectorIn, double) const { return 0; }  ///< its work depends on the way
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
 
   /// @throws InvalidInput unless the couple is finite and the vectors are given in pairs.

@@ -34,10 +34,10 @@ struct DistributedLoad {
   static constexpr bool is_load = true;
 
   Placed<E> on;
-  Vector<E::dim> value = Vector<E::dim>::Zero();       // f [N/m] or [N/m^2]
-  std::function<Vector<E::dim>(double)> history = {};  // f(t); where given, in place of value
+  Vector<E::dim> value = Vector<E::dim>::Zero();       ///< f [N/m] or [N/m^2]
+  std::function<Vector<E::dim>(double)> history = {};  ///< f(t); where given, in place of value
   std::string label = "distributed load";
-  Index own = on.index();  // follows from the others
+  Index own = on.index();  ///< follows from the others
 
   const std::string& name() const { return label; }
   const Index& index() const { return own; }
@@ -73,10 +73,10 @@ struct FollowerPressure {
   static constexpr bool is_load = true;
 
   Placed<E> on;
-  double value = 0;                            // p [Pa]
-  std::function<double(double)> history = {};  // p(t) [Pa]; where given, in place of value
+  double value = 0;                            ///< p [Pa]
+  std::function<double(double)> history = {};  ///< p(t) [Pa]; where given, in place of value
   std::string label = "follower pressure";
-  Index own = on.index();  // follows from the others
+  Index own = on.index();  ///< follows from the others
 
   const std::string& name() const { return label; }
   const Index& index() const { return own; }

@@ -20,12 +20,12 @@ struct FollowerForce {
   static constexpr bool is_load = true;
 
   Marker<Dim> at = {};
-  Marker<Dim> along = {};                           // u
-  Marker<Dim> beside = {};                          // w; in space, and there only for F2 and F3
-  Vector<Dim> value = Vector<Dim>::Zero();          // F1, F2, F3 [N]
-  std::function<Vector<Dim>(double)> history = {};  // F(t) [N]; where given, in place of value
+  Marker<Dim> along = {};                           ///< u
+  Marker<Dim> beside = {};                          ///< w; in space, and there only for F2 and F3
+  Vector<Dim> value = Vector<Dim>::Zero();          ///< F1, F2, F3 [N]
+  std::function<Vector<Dim>(double)> history = {};  ///< F(t) [N]; where given, in place of value
   std::string label = "follower force";
-  Marker<3 * Dim> y = stacked(at, along, beside);  // follows from the others
+  Marker<3 * Dim> y = stacked(at, along, beside);  ///< follows from the others
 
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }

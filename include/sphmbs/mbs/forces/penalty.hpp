@@ -13,16 +13,16 @@ namespace sphmbs::mbs::forces {
 /// V << 1 / a leaves with V (1 - 2/3 a V), for every p. With p > 1 its tangent is continuous, which
 /// Newton's method likes.
 struct Penalty {
-  double stiffness = 1e5;  // k [N/m^p]
-  double exponent = 1.5;   // p: 1 linear, 1.5 Hertz's spheres [-]
-  double damping = 0;      // a [s/m]
+  double stiffness = 1e5;  ///< k [N/m^p]
+  double exponent = 1.5;   ///< p: 1 linear, 1.5 Hertz's spheres [-]
+  double damping = 0;      ///< a [s/m]
 
   struct Push {
-    double force = 0;        // N [N]
-    double by_depth = 0;     // dN/d delta [N/m]
-    double by_rate = 0;      // dN/d delta' [N s/m]
-    double energy = 0;       // k delta^(p + 1) / (p + 1) [J]
-    double dissipation = 0;  // (N - k delta^p) delta' [W]
+    double force = 0;        ///< N [N]
+    double by_depth = 0;     ///< dN/d delta [N/m]
+    double by_rate = 0;      ///< dN/d delta' [N s/m]
+    double energy = 0;       ///< k delta^(p + 1) / (p + 1) [J]
+    double dissipation = 0;  ///< (N - k delta^p) delta' [W]
   };
 
   Push push(double depth, double rate) const {

@@ -16,8 +16,8 @@ struct PointForce {
   static constexpr bool is_load = true;
 
   Marker<Dim> at = {};
-  Vector<Dim> value = Vector<Dim>::Zero();          // F [N]
-  std::function<Vector<Dim>(double)> history = {};  // F(t) [N]; where given, in place of value
+  Vector<Dim> value = Vector<Dim>::Zero();          ///< F [N]
+  std::function<Vector<Dim>(double)> history = {};  ///< F(t) [N]; where given, in place of value
   std::string label = "point force";
 
   const std::string& name() const { return label; }

@@ -18,11 +18,11 @@ template <int Dim>
 struct Torque {
   static constexpr bool is_load = true;
 
-  Marker<Dim> on = {};                         // u
-  Marker<Dim> against = {};                    // takes the reaction; the ground does by default
-  Marker<Dim> axis = {};                       // a, in space
-  double value = 0;                            // M [N m]
-  std::function<double(double)> history = {};  // M(t) [N m]; where given, in place of value
+  Marker<Dim> on = {};                         ///< u
+  Marker<Dim> against = {};                    ///< takes the reaction; the ground does by default
+  Marker<Dim> axis = {};                       ///< a, in space
+  double value = 0;                            ///< M [N m]
+  std::function<double(double)> history = {};  ///< M(t) [N m]; where given, in place of value
   std::string label = "torque";
   Marker<2 * Turn<Dim>::size> y =  // follows from the others
       stacked(Turn<Dim>::y(axis, on), Turn<Dim>::y(axis, against));
@@ -50,7 +50,7 @@ struct Torque {
     add_tangent(y, K, k);
   }
 
-  double potential(VectorIn, double) const { return 0; }  // its work grows with every turn
+  double potential(VectorIn, double) const { return 0; }  ///< its work grows with every turn
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
 
   /// @throws InvalidInput unless the moment is finite, and the vector and the axis are given.

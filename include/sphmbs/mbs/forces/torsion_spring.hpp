@@ -18,10 +18,10 @@ template <int Dim>
 struct TorsionSpring {
   Marker<Dim> from = {};
   Marker<Dim> to = {};
-  Marker<Dim> axis = {};     // in space
-  double stiffness = 0;      // k [N m/rad]
-  double damping = 0;        // c [N m s/rad]
-  double natural_angle = 0;  // theta0 [rad]
+  Marker<Dim> axis = {};     ///< in space
+  double stiffness = 0;      ///< k [N m/rad]
+  double damping = 0;        ///< c [N m s/rad]
+  double natural_angle = 0;  ///< theta0 [rad]
   std::string label = "torsion spring";
   Marker<2 * Turn<Dim>::size> y =  // follows from the others
       stacked(Turn<Dim>::y(axis, from), Turn<Dim>::y(axis, to));

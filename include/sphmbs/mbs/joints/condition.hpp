@@ -15,18 +15,18 @@ namespace sphmbs::mbs::joints {
 template <int Dim>
 struct Held {
   Marker<Dim> a;
-  Marker<Dim> b = Marker<Dim>();  // none: the ground
-  Path<Dim> path = {};            // [m], or [-] of vectors
-  bool points = true;             // whether these are points or vectors
+  Marker<Dim> b = Marker<Dim>();  ///< none: the ground
+  Path<Dim> path = {};            ///< [m], or [-] of vectors
+  bool points = true;             ///< whether these are points or vectors
   std::string label = "position";
 };
 
 /// What a factor of a product is to the joint; the reaction depends on it.
 enum class Role {
-  fixed,        // a direction of the ground
-  vector_of_a,  // a vector that turns with a
-  vector_of_b,  // a vector that turns with b
-  gap           // a point of a less a point of b
+  fixed,        ///< a direction of the ground
+  vector_of_a,  ///< a vector that turns with a
+  vector_of_b,  ///< a vector that turns with b
+  gap           ///< a point of a less a point of b
 };
 
 template <int Dim>
@@ -47,7 +47,7 @@ template <int Dim>
 struct Product {
   std::vector<Term<Dim>> terms;
   TimeFunction c = 0.0;
-  double scale = 1;  // makes Phi a length [m], or of unit vectors
+  double scale = 1;  ///< makes Phi a length [m], or of unit vectors
   std::string label;
 };
 

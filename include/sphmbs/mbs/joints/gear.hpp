@@ -19,8 +19,8 @@ struct Mesh {
   static constexpr std::string_view kind = "gear";
 
   int p, q;
-  int s;         // 1: opposite turning, -1: the same
-  double phase;  // [rad]
+  int s;         ///< 1: opposite turning, -1: the same
+  double phase;  ///< [rad]
   double length_a, length_b;
 
   template <class S>

@@ -37,7 +37,7 @@ class Rail {
     }
   }
 
-  double length() const { return length_; }  // [m]
+  double length() const { return length_; }  ///< [m]
   std::size_t size() const { return elements_.size(); }
   const Placed<E>& element(std::size_t i) const { return elements_[i]; }
   /// s where element i begins [m].

@@ -19,21 +19,21 @@ namespace sphmbs::mbs::joints {
 
 /// What happens where a slider comes to an end of its rail.
 enum class Ends {
-  event,  // NumericalFailure once a state beyond the end is accepted
-  stop    // a spring and damper pushes it back
+  event,  ///< NumericalFailure once a state beyond the end is accepted
+  stop    ///< a spring and damper pushes it back
 };
 
 /// How a point slides along a rail.
 template <int Dim>
 struct SlidingOptions {
-  Marker<Dim> slider = {};          // the point
-  double at = 0;                    // s at t = 0 [m]
-  std::optional<double> rate = {};  // ds/dt at t = 0 [m/s]; else from the slider's velocity
+  Marker<Dim> slider = {};          ///< the point
+  double at = 0;                    ///< s at t = 0 [m]
+  std::optional<double> rate = {};  ///< ds/dt at t = 0 [m/s]; else from the slider's velocity
   Friction friction = {};
   Ends ends = Ends::event;
-  forces::Penalty stop = {.stiffness = 1e6, .exponent = 1.5, .damping = 1};  // against s
-  double overrun = 1e-6;    // share of the rail that is no event yet [-]
-  double tolerance = 1e-6;  // distance at t = 0 that is allowed, over the rail's length
+  forces::Penalty stop = {.stiffness = 1e6, .exponent = 1.5, .damping = 1};  ///< against s
+  double overrun = 1e-6;    ///< share of the rail that is no event yet [-]
+  double tolerance = 1e-6;  ///< distance at t = 0 that is allowed, over the rail's length
   std::string name = "";
 };
 

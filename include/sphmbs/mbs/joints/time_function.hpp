@@ -59,8 +59,8 @@ inline TimeFunction linear_in_time(double start, double slope) {
 /// mean + amplitude sin(2 pi frequency t + phase).
 struct Sine {
   double amplitude;
-  double frequency;  // [Hz]
-  double phase = 0;  // [rad]
+  double frequency;  ///< [Hz]
+  double phase = 0;  ///< [rad]
   double mean = 0;
 
   operator TimeFunction() const {
@@ -76,8 +76,8 @@ struct Sine {
 struct SmoothStep {
   double from = 0;
   double to;
-  double begin = 0;  // [s]
-  double end;        // [s]
+  double begin = 0;  ///< [s]
+  double end;        ///< [s]
 
   /// @throws InvalidInput unless it ends after it begins.
   operator TimeFunction() const {

@@ -27,14 +27,14 @@ struct Bar {
   static constexpr int drawn = 1;
   using Material = Vector<2>;
 
-  Vector<2> from;                             // first point at t = 0 [m]
-  Vector<2> to;                               // second point at t = 0 [m]
-  double density = 0;                         // of a prismatic bar [kg/m^3]
-  double area = 0;                            // of its section [m^2]
-  double height = 0;                          // of its section, in the plane [m]
-  std::optional<PlanarInertia> inertia = {};  // instead of density, area and height
-  Vector<2> velocity = Vector<2>::Zero();     // of the first point at t = 0 [m/s]
-  double angular_velocity = 0;                // at t = 0 [rad/s]
+  Vector<2> from;                             ///< first point at t = 0 [m]
+  Vector<2> to;                               ///< second point at t = 0 [m]
+  double density = 0;                         ///< of a prismatic bar [kg/m^3]
+  double area = 0;                            ///< of its section [m^2]
+  double height = 0;                          ///< of its section, in the plane [m]
+  std::optional<PlanarInertia> inertia = {};  ///< instead of density, area and height
+  Vector<2> velocity = Vector<2>::Zero();     ///< of the first point at t = 0 [m/s]
+  double angular_velocity = 0;                ///< at t = 0 [rad/s]
 
   double length() const { return (to - from).norm(); }
 

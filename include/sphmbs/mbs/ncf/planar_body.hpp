@@ -27,12 +27,13 @@ struct PlanarBody {
   using Material = Vector<2>;
 
   PlanarInertia inertia;
-  Vector<2> reference = Vector<2>::Zero();     // material point that these belong to [m]:
-  Vector<2> position = Vector<2>::Zero();      // its place at t = 0 [m]
-  Vector<2> velocity = Vector<2>::Zero();      // its velocity at t = 0 [m/s]
-  double angle = 0;                            // of the body's x axis at t = 0 [rad]
-  double angular_velocity = 0;                 // at t = 0 [rad/s]
-  std::vector<Vector<2>> outline_points = {};  // drawn polyline; none: square of equal inertia [m]
+  Vector<2> reference = Vector<2>::Zero();  ///< material point that these belong to [m]:
+  Vector<2> position = Vector<2>::Zero();   ///< its place at t = 0 [m]
+  Vector<2> velocity = Vector<2>::Zero();   ///< its velocity at t = 0 [m/s]
+  double angle = 0;                         ///< of the body's x axis at t = 0 [rad]
+  double angular_velocity = 0;              ///< at t = 0 [rad/s]
+  /// Drawn polyline; none: square of equal inertia [m].
+  std::vector<Vector<2>> outline_points = {};
 
   /// @throws InvalidInput unless the mass properties make sense and all is finite.
   void check() const {

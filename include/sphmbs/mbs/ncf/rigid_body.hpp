@@ -38,13 +38,13 @@ struct RigidBody {
   using Material = Vector<3>;
 
   Inertia inertia;
-  Orientation orientation = {};                    // at t = 0
-  Vector<3> reference = Vector<3>::Zero();         // material point that these belong to [m]:
-  Vector<3> position = Vector<3>::Zero();          // its place at t = 0 [m]
-  Vector<3> velocity = Vector<3>::Zero();          // its velocity at t = 0 [m/s]
-  Vector<3> angular_velocity = Vector<3>::Zero();  // at t = 0 [rad/s]
+  Orientation orientation = {};                    ///< at t = 0
+  Vector<3> reference = Vector<3>::Zero();         ///< material point that these belong to [m]:
+  Vector<3> position = Vector<3>::Zero();          ///< its place at t = 0 [m]
+  Vector<3> velocity = Vector<3>::Zero();          ///< its velocity at t = 0 [m/s]
+  Vector<3> angular_velocity = Vector<3>::Zero();  ///< at t = 0 [rad/s]
   Axes angular_velocity_in = Axes::global;
-  std::vector<Vector<3>> outline_points = {};  // drawn polyline; none: box of equal inertia [m]
+  std::vector<Vector<3>> outline_points = {};  ///< drawn polyline; none: box of equal inertia [m]
 
   /// @throws InvalidInput unless the mass properties make sense, the orientation is a rotation and
   /// all is finite.

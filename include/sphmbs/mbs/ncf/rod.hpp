@@ -25,12 +25,12 @@ struct Rod {
   static constexpr int drawn = 1;
   using Material = Vector<1>;
 
-  Vector<3> from;                                  // first point at t = 0 [m]
-  Vector<3> to;                                    // second point at t = 0 [m]
-  double density;                                  // [kg/m^3]
-  double area;                                     // of the section [m^2]
-  Vector<3> velocity = Vector<3>::Zero();          // of the first point at t = 0 [m/s]
-  Vector<3> angular_velocity = Vector<3>::Zero();  // at t = 0, in global axes [rad/s]
+  Vector<3> from;                                  ///< first point at t = 0 [m]
+  Vector<3> to;                                    ///< second point at t = 0 [m]
+  double density;                                  ///< [kg/m^3]
+  double area;                                     ///< of the section [m^2]
+  Vector<3> velocity = Vector<3>::Zero();          ///< of the first point at t = 0 [m/s]
+  Vector<3> angular_velocity = Vector<3>::Zero();  ///< at t = 0, in global axes [rad/s]
 
   double length() const { return (to - from).norm(); }
   double mass() const { return density * area * length(); }
