@@ -29,10 +29,12 @@ concept Motion = std::is_trivially_copyable_v<M> &&
 
 /// All virtual particles stay where they are.
 struct Fixed {
+  /// Place at time t1 of what is at r [m] at time t0 [s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double, double) const {
     return r;
   }
+  /// Velocity at place r [m] and time t [s], in [m/s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>&, double) const {
     return Vec<Dim, T>::all(T(0));
@@ -45,15 +47,18 @@ struct Contraction {
   double length;  ///< between two opposite walls at time 0 [m]
   double speed;   ///< of each wall, inwards [m/s]
 
+  /// Place at time t1 of what is at r [m] at time t0 [s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double t0, double t1) const {
     return static_cast<T>(length_at(t1) / length_at(t0)) * r;
   }
+  /// Velocity at place r [m] and time t [s], in [m/s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>& r, double t) const {
     return static_cast<T>(-2 * speed / length_at(t)) * r;
   }
 
+  /// Ratio of lengths of the solid, time t1 to time t0 [-].
   SPHMBS_INLINE double stretch(Mark, double t0, double t1) const {
     return length_at(t1) / length_at(t0);
   }

@@ -14,7 +14,7 @@ namespace sphmbs::boundary {
 /// A gas particle and a virtual particle, seen from the gas.
 template <int Dim, class N>
 struct Meeting {
-  particles::Record<Dim, N> gas;
+  particles::Record<Dim, N> gas;     ///< the gas particle
   particles::Slopes<Dim, N> slopes;  ///< of the gas
   Vec<Dim, N> wall_velocity;         ///< of the surface in front of the virtual particle [m/s]
   Vec<Dim, N> d;                     ///< way from the gas to the virtual particle [m]

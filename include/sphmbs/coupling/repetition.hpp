@@ -15,8 +15,10 @@ namespace sphmbs::coupling {
 
 /// What the repetition x -> F(x) of coupling::Strong has shown so far.
 struct Repetition {
+  /// What one repetition has shown.
   struct Pair {
-    mbs::VectorXd residual, result;  ///< F(x) - x, F(x)
+    mbs::VectorXd residual;  ///< F(x) - x
+    mbs::VectorXd result;    ///< F(x)
   };
 
   /// A step begins; changes seen in earlier ones stay known.
@@ -40,8 +42,10 @@ concept RepetitionPolicy = requires(const R policy, const mbs::VectorXd x, Repet
 struct Relaxation {
   double share = 0.5;  ///< [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const { expects(share > 0 && share <= 1, "share", share, "above 0 and at most 1"); }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result, Repetition&) const {
     return x + share * (result - x);
   }
@@ -50,14 +54,16 @@ struct Relaxation {
 /// A share of each correction that follows from the last two (Kuettler and Wall, Comput. Mech. 43,
 /// 2008).
 struct Aitken {
-  double first = 1;  ///< share of the first correction of a step [-]
-  double most = 1.5;
+  double first = 1;   ///< share of the first correction of a step [-]
+  double most = 1.5;  ///< largest share [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const {
     expects(first > 0 && first <= 1, "first share", first, "above 0 and at most 1");
     expects(most >= 1, "largest share", most, "at least 1");
   }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result,
                      Repetition& so_far) const {
     const mbs::VectorXd residual = result - x;
@@ -79,12 +85,14 @@ struct QuasiNewton {
   int most = 10;              ///< changes that are known [-]
   double independent = 1e-2;  ///< share of a change that newer ones must leave of it [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const {
     expects(most >= 1, "number of changes", most, "at least 1");
     expects(independent > 0 && independent < 1, "independent share", independent,
             "above 0 and below 1");
   }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result,
                      Repetition& so_far) const {
     const mbs::VectorXd residual = result - x;

@@ -22,7 +22,7 @@ namespace sphmbs::coupling {
 struct Incident {
   double time;       ///< [s]
   std::string kind;  ///< "narrow gap" or "through a periodic side", with the sets
-  std::string text;
+  std::string text;  ///< one sentence, with time and sizes
 };
 
 /// Looks at the gaps between bodies and to walls, as often as these could have moved by a quarter
@@ -84,6 +84,7 @@ class Watch {
     });
   }
 
+  /// All so far, in order of time.
   const std::vector<Incident>& incidents() const { return incidents_; }
 
  private:

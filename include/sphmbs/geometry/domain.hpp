@@ -62,9 +62,11 @@ struct Periodicity {
 /// in- and outflow of sect. 3.1. Walls may lie outside the box along the other axes.
 template <int Dim>
 struct Domain {
-  Box<Dim> box;
+  Box<Dim> box;  ///< [m]; what lies outside is bounded by virtual particles, or is a periodic image
+  /// Along which axes the box repeats itself.
   std::array<bool, Dim> periodic{};
 
+  /// The periodic axes, for loops.
   template <class T>
   Periodicity<Dim, T> periodicity() const {
     Periodicity<Dim, T> p;

@@ -42,7 +42,7 @@ struct Subdivision {
   int surface = 4;  ///< of an element that is a surface, along each side
   // Of the outline of a body, which may have corners at equal shares of it: 1 to 6, 8, 10, 12, 15,
   // ... pieces meet at such places. Points in line are left out.
-  int outline = 120;
+  int outline = 120;  ///< points on the outline of a body
 };
 
 namespace detail {

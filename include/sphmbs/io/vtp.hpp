@@ -80,7 +80,9 @@ struct Cells {
   std::vector<std::int64_t> connectivity{};  ///< points of all cells, one cell after the other
   std::vector<std::int64_t> offsets{};       ///< end of each cell in `connectivity`
 
+  /// Number of cells.
   std::size_t size() const { return offsets.size(); }
+  /// Adds a cell through these points, which are counted from 0.
   void add(std::initializer_list<std::int64_t> points) {
     connectivity.insert(connectivity.end(), points);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
@@ -95,10 +97,14 @@ struct Cells {
 /// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
 struct Mesh {
   std::vector<double> points{};  ///< x, y, z of each point [m]
+  /// polylines.
   Cells lines{};
+  /// surfaces.
   Cells polygons{};
+  /// One value or vector for each point.
   std::vector<PointArray> arrays{};
 
+  /// Number of points.
   std::size_t size() const { return points.size() / 3; }
 };
 

@@ -13,7 +13,11 @@ namespace sphmbs::mbs {
 
 /// Counts since the start.
 struct DynamicsStatistics {
-  long steps = 0, iterations = 0, factorisations = 0, halvings = 0, rejected = 0;
+  long steps = 0;           ///< accepted
+  long iterations = 0;      ///< of Newton's method
+  long factorisations = 0;  ///< of the iteration matrix
+  long halvings = 0;        ///< of steps in which Newton's method failed
+  long rejected = 0;        ///< steps whose error estimate was too large
 };
 
 /// Largest distance that the positions among coordinates q span along an axis [m].
@@ -48,8 +52,8 @@ template <class Structure, solvers::LinearSolver Solver = solvers::SparseLU,
           class Policy = execution::Default>
 class Dynamics {
  public:
-  static constexpr int dim = Structure::dim;
-  using EquationsType = Equations<Structure, Policy>;
+  static constexpr int dim = Structure::dim;           ///< dimension of space
+  using EquationsType = Equations<Structure, Policy>;  ///< the equations of motion
 
   /// Makes the initial state consistent. Keeps a reference to the structure.
   /// @throws InvalidInput and NumericalFailure as ConsistentStart::run does.
@@ -77,8 +81,11 @@ class Dynamics {
   const State& state() const { return state_; }        ///< q, v, vdot, lambda
   const StartReport& start() const { return start_; }  ///< how the initial state was made
   double size() const { return size_; }                ///< largest extent at t = 0 [m]
+  /// The bodies, joints and forces.
   const Structure& structure() const { return structure_; }
+  /// The equations of motion.
   EquationsType& equations() { return equations_; }
+  /// Counts since the start.
   DynamicsStatistics statistics() const {
     DynamicsStatistics s = statistics_;
     s.factorisations = factors_.count();
@@ -105,7 +112,9 @@ class Dynamics {
 
   /// @name For integrators
   /// @{
+  /// The iteration matrix and its factors.
   Factors<Solver>& factors() { return factors_; }
+  /// Counts, to be raised.
   DynamicsStatistics& counts() { return statistics_; }
   /// The auxiliary acceleration of generalized-alpha for a step of length h [per s^2].
   VectorXd algorithmic_acceleration(double h) const {
@@ -113,6 +122,7 @@ class Dynamics {
   }
   /// Step that an error estimate suggests [s]; infinite before the first one.
   double suggested_step() const { return suggested_step_; }
+  /// Notes the step that an error estimate suggests [s].
   void suggest_step(double dt) { suggested_step_ = dt; }
 
   /// Takes a state as the one that a step has led to.

@@ -15,7 +15,9 @@ struct Energies {
   double dissipated = 0;  ///< by dampers, friction and internal damping since t = 0 [J]
   double work = 0;        ///< done by loads, drives and forces from outside since t = 0 [J]
 
+  /// Kinetic and stored energy [J].
   double mechanical() const { return kinetic + strain + potential + springs; }
+  /// What is constant in time but for errors of the integrator [J].
   double total() const { return mechanical() + dissipated - work; }
 };
 
@@ -57,6 +59,7 @@ struct Powers {
   double work = 0;        ///< [W]
 };
 
+/// Powers of damping and loads at a state [W].
 template <class System>
 Powers powers_at(System& equations, const State& state) {
   Powers p;

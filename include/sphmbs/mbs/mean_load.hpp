@@ -20,6 +20,7 @@ namespace sphmbs::mbs {
 /// that Newton's method has to halve receives it to second order only.
 class MeanLoad {
  public:
+  /// The load at the end of a step, from its mean.
   struct End {
     VectorXd filtered;  ///< b_{n+1}
     VectorXd load;      ///< Q_{n+1}
@@ -29,6 +30,7 @@ class MeanLoad {
   /// @param start  the load at the beginning, when accelerations belong to it
   explicit MeanLoad(const VectorXd& start) : last_{start, start} {}
 
+  /// The load at the end of a step of length h [s] that makes the integrator's mean `mean`.
   End at_end(const GeneralizedAlpha& integrator, const VectorXd& mean, double h) const {
     const auto [alpha_m, alpha_f, gamma, beta] = integrator.coefficients();
     const VectorXd b = last_.load + filter_stretch(h, last_h_) * (last_.filtered - last_.load);

@@ -27,8 +27,8 @@ struct Newton {
   double tolerance = 1e-10;
   /// Bound on that of an acceleration, over the largest or gravity.
   double acceleration_tolerance = 1e-6;
-  int max_iterations = 20;
-  Refactor refactor = Refactor::when_slow;
+  int max_iterations = 20;                  ///< after which the method has failed
+  Refactor refactor = Refactor::when_slow;  ///< when the matrix is factorised
   double slow_rate = 0.25;  ///< ratio of successive corrections that asks for new factors [-]
   int max_halvings = 10;    ///< of the step, where Newton's method fails
 
@@ -46,16 +46,17 @@ struct Newton {
 
 /// What one iteration did.
 struct NewtonIteration {
-  double correction = 0;  ///< largest |dq| over the structure's size
-  double residual = 0;    ///< largest |r| or |Phi|
-  int worst = 0;          ///< unknown with the largest residual
-  bool refactored = false;
+  double correction = 0;    ///< largest |dq| over the structure's size
+  double residual = 0;      ///< largest |r| or |Phi|
+  int worst = 0;            ///< unknown with the largest residual
+  bool refactored = false;  ///< whether the matrix was factorised in it
 };
 
 /// Course of Newton's method in one step, for messages and statistics.
 struct NewtonCourse {
-  std::vector<NewtonIteration> iterations;
-  bool converged = false, singular = false;
+  std::vector<NewtonIteration> iterations;  ///< in order
+  bool converged = false;                   ///< whether corrections fell below the tolerance
+  bool singular = false;                    ///< whether the matrix was
   std::string failure = {};  ///< what a component complained of, if that is why it ended
 
   /// Ratio of the last two corrections; 1 where there are not two.

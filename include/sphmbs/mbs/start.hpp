@@ -26,7 +26,7 @@ enum class Redundant { remove, refuse };
 struct StartOptions {
   double position_tolerance = 1e-6;  ///< on Phi, over the structure's size [-]
   double velocity_tolerance = 1e-3;  ///< on dPhi/dt, over the largest rate or the size a second [-]
-  Redundant redundant = Redundant::remove;
+  Redundant redundant = Redundant::remove;  ///< what to do about conditions that follow from others
 };
 
 /// What was done to make the initial state consistent.
@@ -43,6 +43,7 @@ struct StartReport {
 template <class System>
 class ConsistentStart {
  public:
+  /// @param size  of the structure [m], to which errors are compared.
   ConsistentStart(System& equations, State& state, double size, const StartOptions& options)
       : equations_(equations), state_(state), size_(size), options_(options) {}
 

@@ -34,8 +34,10 @@ struct Cloud {
   int sets = 0;                        ///< sets of virtual particles so far
   std::vector<Opening<Dim>> openings;  ///< through which gas comes in and goes out
 
+  /// Number of particles.
   std::size_t size() const { return r.size(); }
 
+  /// Number of those that are gas.
   std::size_t gas_count() const {
     std::size_t n = 0;
     for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
@@ -148,7 +150,7 @@ struct Cloud {
   /// The two sets of virtual particles of a thin body.
   struct Sides {
     int front;  ///< towards the normals
-    int back;
+    int back;   ///< against the normals
   };
 
   /// Adds a thin body, whose two sides gas feels apart: `layers` layers of virtual particles for

@@ -51,18 +51,18 @@ struct Opening {
 template <int Dim, class T>
 struct OpeningView {
   Vec<Dim, T> lower;  ///< [m]
-  Vec<Dim, T> upper;
-  int axis;
-  T side;
-  T distance;     ///< of the far gas [m]
-  T spacing;      ///< of particles in the far gas [m]
-  T h;            ///< their smoothing length [m]
-  T m;            ///< their mass [kg]
-  T rho;          ///< of the far gas [kg/m^3]
-  T p;            ///< [Pa]
-  T e;            ///< [J/kg]
-  T c;            ///< [m/s]
-  Vec<Dim, T> v;  ///< with which it comes in [m/s]
+  Vec<Dim, T> upper;  ///< corner of the zone with the largest coordinates [m]
+  int axis;           ///< square to the face
+  T side;             ///< 1 where gas is on the upper side of the face, -1 on the lower [-]
+  T distance;         ///< of the far gas [m]
+  T spacing;          ///< of particles in the far gas [m]
+  T h;                ///< their smoothing length [m]
+  T m;                ///< their mass [kg]
+  T rho;              ///< of the far gas [kg/m^3]
+  T p;                ///< [Pa]
+  T e;                ///< [J/kg]
+  T c;                ///< [m/s]
+  Vec<Dim, T> v;      ///< with which it comes in [m/s]
 
   /// The component of a vector across the face, into the gas.
   template <class N>

@@ -92,6 +92,7 @@ SPHMBS_INLINE Record<Dim, Number<T, W>> load_records(const T* records, const std
   }
 }
 
+/// Writes the record of particle i.
 template <int Dim, class T>
 SPHMBS_INLINE void store_record(T* records, std::size_t i, const Record<Dim, T>& s) {
   T* f = records + i * record_size<Dim, T>;

@@ -24,6 +24,7 @@ namespace sphmbs::riemann {
 struct LimitedAcoustic {
   double strength = 3;  ///< [-]
 
+  /// p* and u* with limited dissipation.
   template <class Eos, class N>
   SPHMBS_INLINE Star<N> star(const Eos&, const State<N>& left, const State<N>& right) const {
     using T = Scalar<N>;

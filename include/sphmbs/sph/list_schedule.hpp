@@ -64,6 +64,7 @@ class ListSchedule {
     surplus_ = surplus;
   }
 
+  /// How far the present lists reach.
   const neighbours::Reach& reach() const { return reach_; }
   /// What the last stage allowed prescribed motion beyond its velocity [m].
   double surplus() const { return surplus_; }

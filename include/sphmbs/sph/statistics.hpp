@@ -10,17 +10,19 @@ namespace sphmbs::sph {
 
 /// Parts of a step whose time is taken.
 enum class Phase : std::size_t { neighbours, slopes, rates, survey, update };
+/// Parts of a step, in the order of `Statistics::seconds`.
 inline constexpr std::array<std::string_view, 5> phase_names{"neighbours", "slopes", "rates",
                                                              "survey", "update"};
 
 /// What a run has done so far.
 struct Statistics {
-  std::uint64_t steps = 0;
+  std::uint64_t steps = 0;              ///< taken
   std::uint64_t evaluations = 0;        ///< of the rates
   std::uint64_t rebuilds = 0;           ///< of the neighbour lists
   std::uint64_t pair_interactions = 0;  ///< ordered pairs inside the support, over all evaluations
   /// Of them those that met a reconstruction not admissible and did without.
   std::uint64_t falls = 0;
+  /// Spent in each part of the steps [s].
   std::array<double, phase_names.size()> seconds{};
 
   /// Counts an evaluation of the rates over so many pairs.

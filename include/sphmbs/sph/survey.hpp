@@ -15,8 +15,9 @@ namespace sphmbs::sph {
 /// Smallest value of a limit on the step, and the particle that sets it.
 struct Limit {
   double dt = std::numeric_limits<double>::infinity();  ///< [s]
-  std::uint32_t id = 0;
+  std::uint32_t id = 0;                                 ///< of the particle
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Limit& other) {
     const bool sooner = other.dt < dt || (other.dt == dt && other.id < id);
     dt = sooner ? other.dt : dt;
@@ -27,7 +28,9 @@ struct Limit {
 /// What is learnt from one evaluation of the rates.
 template <int Dim>
 struct Survey {
+  /// Smallest components of any particle's velocity [m/s].
   Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
+  /// Largest components of any particle's velocity [m/s].
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
   double h_rate = 0;         ///< largest rate of change of h [m/s]
   std::uint64_t pairs = 0;   ///< ordered pairs inside the support
@@ -40,6 +43,7 @@ struct Survey {
   Limit acceleration;        ///< sqrt(h / |a|)
   Limit diffusion;           ///< h^2 / (2 nu)
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Survey& o) {
     for (int k = 0; k < Dim; ++k) {
       slowest[k] = math::min(slowest[k], o.slowest[k]);
@@ -70,13 +74,14 @@ struct Survey {
 /// What a particle contributes to the survey.
 template <class Scheme, class T>
 struct SurveyParticle {
-  static constexpr int dim = Scheme::dim;
-  Scheme scheme;
-  particles::FieldsView<dim, T> fields;
-  particles::RatesView<dim, T> rates;
-  const T* records;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  Scheme scheme;                           ///< with the numbers of its policies
+  particles::FieldsView<dim, T> fields;    ///< of all particles
+  particles::RatesView<dim, T> rates;      ///< of all particles
+  const T* records;                        ///< of all particles, see `particles::Record`
   double share;  ///< of one evaluation in the rates, which are a weighted sum of several [-]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE Survey<dim> operator()(std::size_t i) const {
     const particles::Record<dim, T> s = particles::load_record<dim>(records, i);
     const std::uint32_t id = fields.id[i];

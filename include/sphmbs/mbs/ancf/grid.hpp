@@ -25,7 +25,9 @@ struct Grid {
   Raster raster;                    ///< where it was added
   std::vector<Placed<P>> elements;  ///< row by row: x first
 
+  /// Along the first axis, undeformed [m].
   double length() const { return raster.count[0] * raster.cell[0]; }
+  /// Along the second axis, undeformed [m].
   double width() const { return raster.count[1] * raster.cell[1]; }
 
   /// Element in column i and row j, from 0.

@@ -16,6 +16,7 @@ struct Raster {
   Vector<2> cell;            ///< sides of a cell [m]
   std::array<int, 2> count;  ///< of cells
 
+  /// Place of node (i, j), undeformed [m].
   Vector<3> node(int i, int j) const { return origin + axes * Vector<2>(i * cell[0], j * cell[1]); }
 
   /// Whether a point is on the rectangle.
@@ -35,6 +36,7 @@ struct Raster {
     return std::array{static_cast<int>(nearest[0]), static_cast<int>(nearest[1])};
   }
 
+  /// Calls visit(i, j) for all nodes, i fastest.
   template <class Visit>
   void for_each_node(Visit&& visit) const {
     for (int j = 0; j <= count[1]; ++j)

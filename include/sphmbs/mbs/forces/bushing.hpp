@@ -27,9 +27,10 @@ struct Bushing {
   Vector<Dim> damping = Vector<Dim>::Zero();                         ///< [N s/m]
   Vector<turns> rotational_damping = Vector<turns>::Zero();          ///< [N m s/rad]
   Vector<Dim> rest = Vector<Dim>::Zero();                            ///< [m]
-  std::string label = "bushing";
+  std::string label = "bushing";                        ///< name in messages and reports
   Marker<Dim*(2 * Dim + 1)> y = both_frames(from, to);  ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
 
@@ -64,6 +65,7 @@ struct Bushing {
     const Strains rate = jacobian(now) * velocity;
     return rate.cwiseAbs2().dot(coefficients(damping, rotational_damping));
   }
+  ///@}
 
   /// @throws InvalidInput for frames without vectors, a stiffness or damping below zero, or a rest
   ///         that is not finite.

@@ -17,6 +17,7 @@ struct Penalty {
   double exponent = 1.5;   ///< p: 1 linear, 1.5 Hertz's spheres [-]
   double damping = 0;      ///< a [s/m]
 
+  /// The force and its derivatives.
   struct Push {
     double force = 0;        ///< N [N]
     double by_depth = 0;     ///< dN/d delta [N/m]
@@ -25,6 +26,7 @@ struct Penalty {
     double dissipation = 0;  ///< (N - k delta^p) delta' [W]
   };
 
+  /// At a depth [m] that grows at a rate [m/s]; nothing for a depth of zero or less.
   Push push(double depth, double rate) const {
     if (!(depth > 0)) return {};
     const double slope = stiffness * std::pow(depth, exponent - 1), spring = slope * depth;

@@ -17,12 +17,14 @@ struct Friction {
   double creep_velocity = 1e-2;    ///< w0 [m/s]
   double normal_smoothing = 1e-3;  ///< N0 [N]
 
+  /// The friction force and its derivatives.
   struct Resistance {
     double force;        ///< F [N]
     double by_velocity;  ///< dF/dw [N s/m]
     double by_normal;    ///< (dF/dn) / n, finite at n = 0 [1/N]
   };
 
+  /// At the square of the normal force [N^2] and a velocity [m/s].
   Resistance resistance(double squared_normal, double velocity) const {
     const double root = std::sqrt(squared_normal + normal_smoothing * normal_smoothing);
     const double pressed = coefficient * (root - normal_smoothing);

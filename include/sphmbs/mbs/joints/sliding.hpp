@@ -29,12 +29,12 @@ struct SlidingOptions {
   Marker<Dim> slider = {};          ///< the point
   double at = 0;                    ///< s at t = 0 [m]
   std::optional<double> rate = {};  ///< ds/dt at t = 0 [m/s]; else from the slider's velocity
-  Friction friction = {};
-  Ends ends = Ends::event;
+  Friction friction = {};           ///< along the rail; none unless given
+  Ends ends = Ends::event;          ///< what happens at the ends of the rail
   forces::Penalty stop = {.stiffness = 1e6, .exponent = 1.5, .damping = 1};  ///< against s
   double overrun = 1e-6;    ///< share of the rail that is no event yet [-]
   double tolerance = 1e-6;  ///< distance at t = 0 that is allowed, over the rail's length
-  std::string name = "";
+  std::string name = "";    ///< what messages call it
 };
 
 /// A point slides along a chain of elements: Phi = x(q) - r(s, q) = 0, Dim conditions. The material
@@ -49,7 +49,7 @@ struct SlidingOptions {
 template <RailElement E>
 class Sliding {
  public:
-  static constexpr int dim = E::dim;
+  static constexpr int dim = E::dim;  ///< dimension of space
 
   /// @param arc  the node of s, see `sliding`
   Sliding(Rail<E> rail, Node arc, SlidingOptions<E::dim> options)
@@ -60,15 +60,19 @@ class Sliding {
     move_to(rail_.element_at(options_.at));
   }
 
+  ///@{ As `Constraint` asks.
   const std::string& name() const { return name_; }
   const Index& index() const { return index_; }
   int conditions() const { return dim; }
+  ///@}
+  /// What it slides on.
   const Rail<E>& rail() const { return rail_; }
   /// The coordinate s, for sensors and forces.
   Marker<1> arc() const { return {.index = {arc_.offset}, .N = Matrix<1, Dynamic>::Ones(1, 1)}; }
   /// The element of the rail that the joint is on.
   std::size_t element() const { return element_; }
 
+  /// Moves to the element that q puts it on, as `MovingConstraint` asks.
   bool relocate(const VectorXd& q) {
     const std::size_t now = rail_.element_at(q[arc_.offset]);
     if (now == element_) return false;
@@ -76,11 +80,13 @@ class Sliding {
     return true;
   }
 
+  /// Phi: the point less the rail at its place.
   void residual(VectorIn q, double, VectorOut phi) const {
     const E& part = rail_.element(element_).part;
     phi = options_.slider.local(q.head(sliders())) - part.shape(on_axis(q)) * own(q);
   }
 
+  /// Phi_q.
   void jacobian(VectorIn q, double, MatrixOut phi_q) const {
     const E& part = rail_.element(element_).part;
     phi_q.leftCols(sliders()) = options_.slider.N;
@@ -88,6 +94,7 @@ class Sliding {
     phi_q.template rightCols<E::dofs>() = -part.shape(on_axis(q));
   }
 
+  /// d(Phi_q^T lambda)/dq, added to h.
   void add_hessian(VectorIn q, double, VectorIn lambda, MatrixOut h) const {
     const E& part = rail_.element(element_).part;
     const int s = sliders();
@@ -98,7 +105,9 @@ class Sliding {
     h.row(s).template tail<E::dofs>() -= cross.transpose();
   }
 
+  /// Nothing depends on time.
   void rate(VectorIn, double, VectorOut) const {}
+  /// Nothing depends on time.
   void acceleration(VectorIn, VectorIn, double, VectorOut) const {}
 
   /// r_s = |r'| F - Q_stop, the one component of friction and stops.
@@ -107,6 +116,7 @@ class Sliding {
     r[sliders()] += slip.stretch * slip.resistance.force + stops(q[sliders()], v[sliders()]).force;
   }
 
+  /// Derivatives of the friction, as `FrictionalConstraint` asks.
   void friction_tangent(VectorIn q, VectorIn v, double, VectorIn lambda, MatrixOut k, MatrixOut c,
                         MatrixOut l) const {
     const int s = sliders();
@@ -125,6 +135,7 @@ class Sliding {
     l.row(s) += slip.stretch * F.by_normal * slip.across_force.transpose();
   }
 
+  /// Power that friction takes [W].
   double dissipation(VectorIn q, VectorIn v, double, VectorIn lambda) const {
     const Slip slip(*this, q, v, lambda);
     return slip.resistance.force * slip.velocity + stops(q[sliders()], v[sliders()]).dissipation;
