@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Shared by scripts/run and scripts/test, which have changed to the root of the repository.
+# Shared by scripts/run, scripts/test and scripts/docs, which have changed to the root of the repository.
 
 fail() {
   echo "error: $1" >&2

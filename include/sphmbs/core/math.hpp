@@ -6,7 +6,7 @@
 #include <sphmbs/core/pack.hpp>
 
 /// The few functions that particle loops need, for plain numbers and packs alike. They stand in for
-/// those of <cmath> and <algorithm>, which device compilers cannot call from a loop.
+/// those of `<cmath>` and `<algorithm>`, which device compilers cannot call from a loop.
 namespace sphmbs::math {
 
 /// The ratio of a circle's circumference to its diameter.

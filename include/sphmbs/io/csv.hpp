@@ -32,7 +32,7 @@ class CsvWriter {
   struct Column {
     /// Heading of the column.
     std::string name{};
-    /// Written behind the name as "name [unit]"; may be empty.
+    /// Written behind the name as `name[unit]`; may be empty.
     std::string unit{};
   };
 

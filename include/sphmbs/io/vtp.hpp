@@ -97,9 +97,9 @@ struct Cells {
 /// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
 struct Mesh {
   std::vector<double> points{};  ///< x, y, z of each point [m]
-  /// polylines.
+  /// Polylines.
   Cells lines{};
-  /// surfaces.
+  /// Surfaces.
   Cells polygons{};
   /// One value or vector for each point.
   std::vector<PointArray> arrays{};
