@@ -13,7 +13,7 @@ struct StiffenedGas {
   double stiffness = 6e8;         ///< p_inf [Pa]
   double heat_capacity_v = 1816;  ///< at constant volume [J/(kg K)]
 
-  /// P = (gamma - 1) rho e - gamma p_inf [Pa].
+  /// p = (gamma - 1) rho e - gamma p_inf [Pa].
   template <class N>
   SPHMBS_INLINE N pressure(N rho, N e) const {
     return N(static_cast<Scalar<N>>(gamma - 1)) * rho * e -
