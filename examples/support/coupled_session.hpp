@@ -64,12 +64,13 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   }
 
   std::vector<std::string> write(const std::filesystem::path& folder, const std::string& title,
-                                 const std::string& number) {
+                                 const std::string& number, bool pictures) {
     const coupling::NearestGas nearest = nearest_gas(system_.fluid(), system_.surface());
     nearest_.distance = std::min(nearest_.distance, nearest.distance);
     nearest_.inside = std::max(nearest_.inside, nearest.inside);
-    std::vector<std::string> names = gas_.write(folder, title, number);
-    for (std::string& name : bodies_.write(folder, title, number)) names.push_back(std::move(name));
+    std::vector<std::string> names = gas_.write(folder, title, number, pictures);
+    for (std::string& name : bodies_.write(folder, title, number, pictures))
+      names.push_back(std::move(name));
     return names;
   }
 
@@ -82,6 +83,14 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
     gas_.summarise(s);
     s.results.push_back({"gas_in_bodies", static_cast<double>(nearest_.inside), 0, "particles"});
     s.results.push_back({"nearest_gas", nearest_.distance, std::nullopt, "spacings"});
+  }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("noticed", noticed_);
+    archive("bodies", bodies_);
+    archive("nearest_distance", nearest_.distance);
+    archive("nearest_inside", nearest_.inside);
   }
 
   const std::vector<Frame>& frames() const { return bodies_.frames(); }

@@ -11,9 +11,11 @@ namespace sphmbs::examples {
 ///   banner(settings)              lines below the notes
 ///   heed(settings, report)        warnings
 ///   progress(state)               adds its counts
-///   write(folder, title, number)  files of one time; @return the names of those to be listed
+///   write(folder, title, number, pictures)
+///                                 files of one time; @return the names of those to be listed
 ///   phases()                      parts of the time that steps take
 ///   summarise(summary)            adds its counts and what it conserves
+///   visit_state(archive)          what it has gathered, where it gathers; see core/archive.hpp
 template <class System>
 class Display;
 

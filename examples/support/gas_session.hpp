@@ -78,10 +78,11 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
   }
 
   std::vector<std::string> write(const std::filesystem::path& folder, const std::string& title,
-                                 const std::string& number) {
+                                 const std::string& number, bool pictures) {
     const std::string name = std::string(collection) + "_" + number + ".vtp";
     write_snapshot(folder / name, fluid_);
-    if constexpr (dim == 2) draw_snapshot(folder, fluid_, title, number);
+    if constexpr (dim == 2)
+      if (pictures) draw_snapshot(folder, fluid_, title, number);
     return {name};
   }
 

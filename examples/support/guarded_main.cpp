@@ -9,6 +9,7 @@
 #include <malloc.h>
 
 #include "sphmbs/core/error.hpp"
+#include "support/run_control.hpp"
 #include "support/text.hpp"
 
 namespace sphmbs::examples {
@@ -25,6 +26,9 @@ int guarded_main(int argc, const char* const* argv, CommandLine& command_line,
     if (const auto settings = command_line.parse(argc, argv, out)) run(*settings);
     out.flush();
     return static_cast<int>(ExitCode::done);
+  } catch (const Stopped& stopped) {
+    out << stopped.what() << std::endl;
+    return stopped.exit_code();
   } catch (const InvalidInput& error) {
     return end_with(ExitCode::bad_input, one_line(error.what()));
   } catch (const NumericalFailure& error) {

@@ -18,7 +18,10 @@ void History::add(const std::string& name, const std::string& unit) {
 void History::begin(const std::filesystem::path& path, const std::string& comment) {
   std::vector<io::CsvWriter::Column> columns{{"t", "s"}};
   columns.insert(columns.end(), columns_.begin(), columns_.end());
-  file_ = std::make_unique<io::CsvWriter>(path, comment, columns);
+  if (restored_bytes_ > 0)
+    file_ = std::make_unique<io::CsvWriter>(path, columns.size(), restored_bytes_);
+  else
+    file_ = std::make_unique<io::CsvWriter>(path, comment, columns);
   file_->flush();
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/io/csv.hpp>
 
 #include "support/pictures.hpp"
@@ -19,8 +21,19 @@ class History {
   /// Adds a quantity; all are added before begin().
   void add(const std::string& name, const std::string& unit);
 
-  /// Creates the file. @throws OutputError with path and reason.
+  /// Creates the file; after a restore, goes on with the earlier one behind the rows that were
+  /// restored. @throws OutputError with path and reason.
   void begin(const std::filesystem::path& path, const std::string& comment);
+
+  /// All rows, and how long the file is.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::uint64_t bytes = file_ ? file_->bytes() : 0;
+    archive("time", time_);
+    archive("values", values_);
+    archive("bytes", bytes);
+    if constexpr (A::restores) restored_bytes_ = bytes;
+  }
 
   /// Adds a row: the time [s] and one value a quantity, in the order they were added.
   void row(double time, const std::vector<double>& values);
@@ -39,6 +52,7 @@ class History {
   std::vector<double> time_;
   std::vector<std::vector<double>> values_;
   std::unique_ptr<io::CsvWriter> file_;
+  std::uint64_t restored_bytes_ = 0;
 };
 
 /// Root mean square of (value - reference) / scale over the reference times in [from, to] that the

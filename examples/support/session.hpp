@@ -8,6 +8,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,8 @@
 #include "support/history.hpp"
 #include "support/output_folder.hpp"
 #include "support/report.hpp"
+#include "support/run_control.hpp"
+#include "support/session_checkpoints.hpp"
 #include "support/text.hpp"
 
 namespace sphmbs::examples {
@@ -79,36 +83,75 @@ class Session {
   }
 
   /// Writes fields and pictures `fields` times and samples the history `samples` times until the
-  /// end, trajectories at every multiple of trace_interval, and steps the system.
-  /// @throws what sphmbs::run throws, and OutputError; everything sampled until then is on disk.
+  /// end, trajectories at every multiple of trace_interval, and steps the system; saves the state
+  /// now and then, and first restores it where the settings say so.
+  /// @throws what sphmbs::run throws, and OutputError: everything sampled until then is on disk;
+  ///         Stopped where the run was asked to end before its time, or to be checked only.
   template <class Integrator>
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
-    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     const Clock::time_point begin = Clock::now();
+    SessionCheckpoints checkpoints(settings_, name_, identity());
+    const auto from = settings_.resume ? checkpoints.open(report_) : nullptr;
+    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     display_.prepare();
-    banner(is_new);
+
+    Every sampling(
+        settings_.until / samples, [&](System&) { timed([&] { sample(); }); }, Timing::next_step);
+    Every tracing(traced_.empty() ? settings_.until : trace_interval,
+                  [&](System&) { timed([&] { trace_row(); }); });
+    const std::string list = std::string(Display<System>::collection) + ".pvd";
+    std::optional<io::PvdCollection> collection;
+    Every writing(settings_.until / fields,
+                  [&](System&) { timed([&] { write_fields(*collection); }); });
+    written_ = {list, "history.csv"};
+    if (!traced_.empty()) written_.push_back("trajectories.csv");
+    if (settings_.check) check(is_new, seconds_since(begin));
+    const auto show = [&](auto& archive) {
+      archive("system", system_);
+      if constexpr (requires { display_.visit_state(archive); }) archive("display", display_);
+      archive("sampling", sampling);
+      archive("tracing", tracing);
+      archive("writing", writing);
+      archive("collection", *collection);
+      archive("history", history_);
+      archive("traces", traces_);
+      archive("written", written_);
+      archive("frames", frames_);
+      archive("output_seconds", output_seconds_);
+      archive("wall_seconds", wall_seconds_);
+    };
+    collection.emplace(file(list));
+    if (from) {
+      io::StateReader reader(*from);
+      show(reader);
+    } else {
+      checkpoints.forget_earlier();
+    }
+    const double earlier = wall_seconds_;
+    banner(is_new, from ? from->path().string() : "");
     const std::string comment = name_ + ", sphmbs " + std::string(version);
     history_.begin(file("history.csv"), comment);
     if (!traced_.empty()) traces_.begin(file("trajectories.csv"), comment);
-    const std::string list = std::string(Display<System>::collection) + ".pvd";
-    io::PvdCollection collection(file(list));
-    written_ = {list, "history.csv"};
-    if (!traced_.empty()) written_.push_back("trajectories.csv");
+
+    RunControl control(settings_);
+    RunControl::Decision decision;
+    std::filesystem::path saved;
+    BetweenSteps boundary([&](System&) {
+      decision = control.decide(steps());
+      wall_seconds_ = earlier + seconds_since(begin);
+      if (decision.save) timed([&] { saved = checkpoints.save(steps(), report_, control, show); });
+      return decision.stop.empty();
+    });
     steps_sent_ -= sent();
     const Schedule schedule{settings_.until, settings_.cfl, step()};
-    sphmbs::run(
+    const bool ended = sphmbs::run(
         system_, integrator, schedule,
-        [&](System&, const sph::StepLimit& limit) { progress(limit); },
-        Every(
-            settings_.until / samples, [&](System&) { timed([&] { sample(); }); },
-            Timing::next_step),
-        Every(traced_.empty() ? settings_.until : trace_interval,
-              [&](System&) { timed([&] { trace_row(); }); }),
-        Every(settings_.until / fields,
-              [&](System&) { timed([&] { write_fields(collection); }); }));
-    wall_seconds_ = seconds_since(begin);
+        [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling, tracing,
+        writing);
+    wall_seconds_ = earlier + seconds_since(begin);
     steps_sent_ += sent();
+    if (!ended) stop(decision, saved);
   }
 
   /// A number the run was made for.
@@ -119,6 +162,7 @@ class Session {
   /// Draws panels into <name>.svg and <name>.png.
   void curves(const std::string& name, const std::string& title, const std::vector<Panel>& panels,
               int columns) {
+    if (!settings_.plots) return;
     for (const char* type : {".svg", ".png"}) {
       draw_panels(file(name + type), title, panels, columns);
       written_.push_back(name + type);
@@ -128,6 +172,7 @@ class Session {
   /// Lets draw(path) make the picture <name>, and lists it.
   template <class Draw>
   void picture(const std::string& name, Draw&& draw) {
+    if (!settings_.plots) return;
     draw(file(name));
     written_.push_back(name);
   }
@@ -197,9 +242,66 @@ class Session {
     return trace_interval / std::ceil(trace_interval / *settings_.step - 1e-9);
   }
 
-  void banner(bool is_new) {
+  std::int64_t steps() const {
+    Progress state;
+    display_.progress(state);
+    return state.step;
+  }
+
+  // The types that the state is of.
+  io::Identity identity() const {
+    io::Identity types{{"dimension", std::to_string(System::dim)}};
+    const auto add_gas = [&]<class Scheme>(std::type_identity<Scheme>) {
+      types["kernel"] = readable_type(typeid(typename Scheme::Kernel));
+      types["Riemann solver"] = readable_type(typeid(typename Scheme::Riemann));
+      types["equation of state"] = readable_type(typeid(decltype(Scheme::eos)));
+      types["scheme"] = readable_type(typeid(Scheme));
+    };
+    if constexpr (requires { typename System::SchemeType; })
+      add_gas(std::type_identity<typename System::SchemeType>());
+    else if constexpr (requires { system_.fluid(); })
+      add_gas(std::type_identity<
+              typename std::remove_cvref_t<decltype(system_.fluid())>::SchemeType>());
+    if constexpr (requires { system_.structure(); })
+      types["structure"] = readable_type(typeid(system_.structure()));
+    return types;
+  }
+
+  // Ends a run that is only looked at.
+  [[noreturn]] void check(bool is_new, double seconds) {
+    banner(is_new, "");
+    const auto names = display_.write(settings_.output, title_, "preview", settings_.plots);
+    std::string files;
+    for (const std::string& name : names) files += "  " + file(name).string();
+    const double dt = settings_.step ? *settings_.step : step_limit_of(system_, settings_.cfl).dt;
+    std::string steps = "as many steps as the accuracy needs";
+    if (std::isfinite(dt))
+      steps = "about " + format_count(static_cast<std::int64_t>(settings_.until / dt)) + " steps";
+    throw Stopped(0, "checked   " + steps + "; set up and evaluated once in " +
+                         format_duration(seconds) + "; preview" + files);
+  }
+
+  // Ends a run that was asked to end.
+  [[noreturn]] void stop(const RunControl::Decision& decision, const std::filesystem::path& saved) {
+    finish();
+    const std::string where = "stopped   by " + decision.stop + " at step " +
+                              format_count(steps()) + ", t = " + format_number(system_.time(), 6) +
+                              " s; ";
+    if (saved.empty())
+      throw OutputError(where + "the checkpoint could not be written, see the warning", "E501");
+    throw Stopped(decision.exit_code, where + "checkpoint " + saved.string() +
+                                          "; go on with --resume --output " +
+                                          settings_.output.string());
+  }
+
+  void banner(bool is_new, const std::string& resumed) {
     std::vector<BannerLine> lines{
         {"case", name_, settings_.output.string() + (is_new ? " (new)" : "")}};
+    if (!resumed.empty())
+      lines.push_back(
+          {"resumed",
+           "step " + format_count(steps()) + ", t = " + format_number(system_.time(), 6) + " s",
+           resumed});
     lines.insert(lines.end(), notes_.begin(), notes_.end());
     Settings shown = settings_;
     shown.step = step();
@@ -242,7 +344,8 @@ class Session {
   void write_fields(io::PvdCollection& collection) {
     const std::string number = std::to_string(10000 + frames_++).substr(1);
     int part = 0;
-    for (const std::string& name : display_.write(settings_.output, title_, number))
+    for (const std::string& name :
+         display_.write(settings_.output, title_, number, settings_.plots))
       collection.add(system_.time(), name, part++);
   }
 

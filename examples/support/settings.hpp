@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
@@ -37,6 +38,20 @@ struct Settings {
   bool overwrite = false;
   /// Print nothing but warnings and errors.
   bool quiet = false;
+  /// Draw pictures and curves.
+  bool plots = true;
+  /// Read, validate and prepare, but do not run.
+  bool check = false;
+  /// Go on from a checkpoint; an empty path means the newest one in `output`.
+  std::optional<std::filesystem::path> resume{};
+  /// Time on the clock after which the run ends with a checkpoint [s].
+  std::optional<double> walltime{};
+  /// Time on the clock between checkpoints [s].
+  double checkpoint_every = 600;
+  /// Number of steps after which the run ends.
+  std::optional<std::int64_t> steps{};
+  /// All parameters as a parameter file, for used.toml; empty writes none.
+  std::string used{};
 };
 
 /// Limits of a number. Whatever they are, NaN and infinity are refused.

@@ -20,8 +20,14 @@ namespace sphmbs::examples {
 
 /// Parts of a structure, drawn, at a time [s].
 struct Frame {
-  double time;
-  io::Mesh mesh;
+  double time = 0;
+  io::Mesh mesh{};
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("time", time);
+    archive("mesh", mesh);
+  }
 };
 
 /// What a session shows of a structure in motion: energies, its parts drawn curved, what the
@@ -77,7 +83,7 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
   }
 
   std::vector<std::string> write(const std::filesystem::path& folder, const std::string&,
-                                 const std::string& number) {
+                                 const std::string& number, bool) {
     const std::string name = std::string(collection) + "_" + number + ".vtp";
     frames_.push_back({system_.time(), io::structure_mesh(system_.structure(), system_.state())});
     io::write_vtp(folder / name, frames_.back().mesh, system_.time());
@@ -105,6 +111,12 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
     s.conservation = {.mass = nothing,
                       .momentum = nothing,
                       .energy = (system_.energies().total() - start_.total()) / largest_kinetic_};
+  }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("largest_kinetic", largest_kinetic_);
+    archive("frames", frames_);
   }
 
   /// All that was written, for pictures.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/sph/survey.hpp>
 #include <sphmbs/time/integrator.hpp>
@@ -55,21 +56,54 @@ class Every {
   void observe(System& system, bool last) {
     const double t = system.time();
     const bool now = t >= due() - 1e-9 * interval_;
-    if (now) count_ = static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1;
+    if (now) count_ = next_after(t);
     if (now || (last && t > acted_)) {
       action_(system);
       acted_ = t;
     }
   }
 
+  /// When it acted last; it may go on at another interval.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("acted", acted_);
+    if constexpr (A::restores) count_ = acted_ < 0 ? 0 : next_after(acted_);
+  }
+
  private:
   double due() const { return static_cast<double>(count_) * interval_; }
+  long next_after(double t) const {
+    return static_cast<long>(std::floor(t / interval_ + 1e-9)) + 1;
+  }
 
   double interval_;
   Action action_;
   Timing timing_;
   long count_ = 0;
   double acted_ = -1;
+};
+
+/// Calls an action between steps, when nothing is half done: to save the state, or to end the run
+/// by returning false.
+template <class Action>
+class BetweenSteps {
+ public:
+  /// @param action  called as action(system), returns whether the run goes on.
+  explicit BetweenSteps(Action action) : action_(std::move(action)) {}
+
+  /// Steps are not shortened.
+  double barrier() const { return std::numeric_limits<double>::infinity(); }
+  /// Nothing is done while a step is under way.
+  template <class System>
+  void observe(System&, bool) const {}
+  /// Calls the action; false ends the run.
+  template <class System>
+  bool between_steps(System& system) {
+    return action_(system);
+  }
+
+ private:
+  Action action_;
 };
 
 /// What limits the next step where the schedule does not fix it: stability in a gas, the accuracy
@@ -96,17 +130,25 @@ int limited_steps([[maybe_unused]] const Integrator& integrator) {
 /// state, rates and forces belong to the same time, and once more at the end. Steps that follow
 /// from stability or accuracy are shortened to meet exact observers; fixed steps are not.
 /// @param report  called as report(system, StepLimit) before every step is taken
+/// @return whether the end was reached: false where BetweenSteps ended the run before
 /// @throws InvalidInput for a bad schedule; NumericalFailure from the system.
 template <class System, class Integrator, class Report, class... Observers>
-void run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
-         Observers... observers) {
+bool run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
+         Observers&&... observers) {
   schedule.check();
   if constexpr (requires { integrator.accuracy; })
     expects(schedule.step || integrator.accuracy, "step", "none",
             "given [s], or the integrator has an accuracy");
   const auto observe = [&]([[maybe_unused]] bool last) { (observers.observe(system, last), ...); };
+  const auto may_go_on = [&](auto& observer) {
+    if constexpr (requires { observer.between_steps(system); })
+      return observer.between_steps(system);
+    else
+      return true;
+  };
   const double close = 1e-12 * schedule.until;
   while (system.time() < schedule.until - close) {
+    if (!(may_go_on(observers) && ...)) return false;
     integrator.step(system, [&] {
       observe(false);
       const double left = schedule.until - system.time();
@@ -132,6 +174,7 @@ void run(System& system, const Integrator& integrator, const Schedule& schedule,
     system.evaluate();
   }
   observe(true);
+  return true;
 }
 
 }  // namespace sphmbs

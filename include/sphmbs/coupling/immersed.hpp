@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/coupling/repetition.hpp>
 #include <sphmbs/coupling/watch.hpp>
 #include <sphmbs/coupling/wetted_surface.hpp>
@@ -17,6 +18,14 @@ struct Exchanged {
   Vec<Dim> impulse = {};      ///< on the wetted particles [kg m/s]
   double work_of_gas = 0;     ///< of the gas's forces at the velocities that it met [J]
   double work_on_bodies = 0;  ///< of the same as a generalized force on the way of the bodies [J]
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("impulse", impulse);
+    archive("work_of_gas", work_of_gas);
+    archive("work_on_bodies", work_on_bodies);
+  }
 };
 
 /// A gas and the bodies in it, in both directions: coupling::Staggered and coupling::Strong move
@@ -78,6 +87,18 @@ class Immersed {
     fluid_.stage(0, 0);
     fluid_.rates(0);
     read();
+  }
+
+  /// Between steps, of gas and bodies too.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("fluid", fluid_);
+    archive("bodies", bodies_);
+    archive("mean_load", mean_load_);
+    archive("repetition", repetition_);
+    archive("exchanged", exchanged_);
+    archive("watch", watch_);
+    if constexpr (A::restores) depart(state().q, state().v, state().vdot);
   }
 
   /// @name For coupling schemes

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/mbs/types.hpp>
 
@@ -19,10 +20,25 @@ struct Repetition {
   struct Pair {
     mbs::VectorXd residual;  ///< F(x) - x
     mbs::VectorXd result;    ///< F(x)
+
+    /// What a checkpoint keeps of it, see `Archive`.
+    template <Archive A>
+    void visit_state(A& archive) {
+      archive("residual", residual);
+      archive("result", result);
+    }
   };
 
   /// A step begins; changes seen in earlier ones stay known.
   void begin() { last = {}; }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("last", last);
+    archive("share", share);
+    archive("changes", changes);
+  }
 
   Pair last;                 ///< of this step; empty before its first
   double share = 1;          ///< of the last correction that was taken [-]

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/coupling/surroundings.hpp>
@@ -23,6 +24,14 @@ struct Incident {
   double time;       ///< [s]
   std::string kind;  ///< "narrow gap" or "through a periodic side", with the sets
   std::string text;  ///< one sentence, with time and sizes
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("time", time);
+    archive("kind", kind);
+    archive("text", text);
+  }
 };
 
 /// Looks at the gaps between bodies and to walls, as often as these could have moved by a quarter
@@ -86,6 +95,18 @@ class Watch {
 
   /// All so far, in order of time.
   const std::vector<Incident>& incidents() const { return incidents_; }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("time", time_);
+    archive("way", way_);
+    archive("moved", moved_);
+    archive("rooted", rooted_);
+    archive("narrow", narrow_);
+    archive("cells", cells_);
+    archive("incidents", incidents_);
+  }
 
  private:
   using Sets = std::pair<int, int>;  // of a body, and of another one or a wall

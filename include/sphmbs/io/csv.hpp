@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
@@ -63,6 +64,22 @@ class CsvWriter {
     flush();
   }
 
+  /// Goes on with an earlier file of so many columns after its first `bytes`; what follows them is
+  /// cut off. Throws OutputError with path and reason if it cannot be written or is shorter.
+  CsvWriter(std::filesystem::path path, std::size_t columns, std::uintmax_t bytes)
+      : path_(std::move(path)), columns_(columns) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path_, error);
+    if (!error && size < bytes)
+      throw OutputError("cannot go on with " + path_.string() + ": it has " + std::to_string(size) +
+                        " bytes, fewer than the " + std::to_string(bytes) + " written before");
+    if (!error) std::filesystem::resize_file(path_, bytes, error);
+    if (error) throw OutputError("cannot go on with " + path_.string() + ": " + error.message());
+    file_.reset(std::fopen(path_.string().c_str(), "ab"));
+    if (!file_) fail();
+    written_ = bytes;
+  }
+
   /// Appends one row with as many values as there are columns, in their order and units; NaN is
   /// written as `nan`, infinities as `inf` and `-inf`. Throws std::invalid_argument if the number
   /// of values differs, OutputError with path and reason if writing fails.
@@ -91,6 +108,9 @@ class CsvWriter {
     if (std::fflush(file_.get()) != 0) fail();
   }
 
+  /// Length of the file once all rows are flushed.
+  std::uintmax_t bytes() const { return written_; }
+
  private:
   struct Close {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -110,6 +130,7 @@ class CsvWriter {
 
   void write_line() {
     if (std::fwrite(line_.data(), 1, line_.size(), file_.get()) != line_.size()) fail();
+    written_ += line_.size();
   }
 
   [[noreturn]] void fail() const {
@@ -120,6 +141,7 @@ class CsvWriter {
   std::filesystem::path path_;
   std::size_t columns_;
   std::string line_;
+  std::uintmax_t written_ = 0;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

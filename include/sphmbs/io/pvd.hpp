@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/io/replace_file.hpp>
 #include <sphmbs/io/xml.hpp>
 
@@ -39,6 +40,13 @@ class PvdCollection {
     entries_ += "<DataSet timestep=\"" + std::string(digits, end) + "\" group=\"\" part=\"" +
                 std::to_string(part) + "\" file=\"" + detail::xml_escaped(relative_file) + "\"/>\n";
     write();
+  }
+
+  /// Restored, the list on disk is what it was then.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("entries", entries_);
+    if constexpr (A::restores) write();
   }
 
  private:

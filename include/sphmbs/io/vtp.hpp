@@ -92,6 +92,13 @@ struct Cells {
     for (std::int64_t k = 0; k < count; ++k) connectivity.push_back(first + k);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("connectivity", connectivity);
+    archive("offsets", offsets);
+  }
 };
 
 /// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
@@ -106,6 +113,15 @@ struct Mesh {
 
   /// Number of points.
   std::size_t size() const { return points.size() / 3; }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("points", points);
+    archive("lines", lines);
+    archive("polygons", polygons);
+    archive("arrays", arrays);
+  }
 };
 
 /// Writes a mesh as a VTK XML PolyData file, as write_vtp does particles.

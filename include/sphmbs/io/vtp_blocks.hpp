@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/io/replace_file.hpp>
 #include <sphmbs/io/xml.hpp>
@@ -31,6 +32,22 @@ struct PointArray {
   std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>,
                std::vector<std::uint8_t>>
       values{};
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::uint64_t type = values.index();
+    archive("name", name);
+    archive("components", components);
+    archive("type", type);
+    if constexpr (A::restores) {
+      if (type == 0) values = std::vector<float>();
+      if (type == 1) values = std::vector<double>();
+      if (type == 2) values = std::vector<std::int32_t>();
+      if (type == 3) values = std::vector<std::uint8_t>();
+    }
+    std::visit([&](auto& numbers) { archive("values", numbers); }, values);
+  }
 };
 
 namespace detail {

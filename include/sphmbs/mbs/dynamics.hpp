@@ -18,6 +18,15 @@ struct DynamicsStatistics {
   long factorisations = 0;  ///< of the iteration matrix
   long halvings = 0;        ///< of steps in which Newton's method failed
   long rejected = 0;        ///< steps whose error estimate was too large
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("steps", steps);
+    archive("iterations", iterations);
+    archive("halvings", halvings);
+    archive("rejected", rejected);
+  }
 };
 
 /// Largest distance that the positions among coordinates q span along an axis [m].
@@ -108,6 +117,22 @@ class Dynamics {
     const auto [first, count] = conditions_of<T>(structure_, equations_.layout(), number);
     if (start_.redundant.empty()) return state_.lambda.segment(first, count);
     return minimum_norm_multipliers(equations_, state_, start_.redundant).segment(first, count);
+  }
+
+  /// Between steps.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("state", state_);
+    archive("algorithmic", algorithmic_);
+    archive("statistics", statistics_);
+    archive("last_step", last_step_);
+    archive("suggested_step", suggested_step_);
+    archive("power_dissipated", powers_.dissipated);
+    archive("power_of_loads", powers_.work);
+    archive("dissipated", dissipated_);
+    archive("work", work_);
+    archive("equations", equations_);
+    factors_.visit_state(archive, equations_);
   }
 
   /// @name For integrators

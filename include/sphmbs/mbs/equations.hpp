@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/first_error.hpp>
 #include <sphmbs/execution/serial.hpp>
@@ -135,6 +136,9 @@ class Equations {
       if (removed(c)) cut(coordinates() + c, result);
   }
 
+  /// Zeros where the iteration matrix has entries.
+  const SparseMatrix& pattern() const { return layout_.zeros; }
+
   /// Phi_q of the last evaluate(), removed rows included.
   SparseMatrix jacobian() const {
     std::vector<Eigen::Triplet<double>> entries;
@@ -166,6 +170,25 @@ class Equations {
       for (int i = 0; i < slot.m; ++i)
         phi[slot.first_condition + i] = vectors_[slot.vector + as_size(slot.n + i)];
     return phi;
+  }
+
+  /// The force from outside, and components with a state of their own, such as joints that move
+  /// along.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("external", external_);
+    int type = 0;
+    structure_.for_each_type([&]<class T>(auto& components) {
+      using Component = std::remove_cvref_t<decltype(components[0])>;
+      constexpr bool has_state = requires(Component c) { c.visit_state(archive); };
+      static_assert(has_state || !MovingConstraint<T>,
+                    "a joint that moves along has a visit_state, to be found there again");
+      if constexpr (has_state)
+        for (std::size_t k = 0; k < components.size(); ++k)
+          archive("component_" + std::to_string(type) + "_" + std::to_string(k), components[k]);
+      ++type;
+    });
+    if constexpr (A::restores) lay_out_again();
   }
 
   /// Calls `visit.template operator()<T>(component, slot, local state)` for each one, in order.

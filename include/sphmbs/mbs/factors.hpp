@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/mbs/equations.hpp>
 #include <sphmbs/mbs/equilibrate.hpp>
 #include <sphmbs/mbs/solvers/linear_solver.hpp>
@@ -40,6 +41,32 @@ class Factors {
     solver_.solve(work_, x);
     x = scale_.cwiseProduct(x);
     return x.allFinite();
+  }
+
+  /// The matrix, from which the factors come anew with the same bits.
+  /// @param equations  that it belongs to
+  template <Archive A, class System>
+  void visit_state(A& archive, const System& equations) {
+    bool serve = regular_ && topology_ == equations.topology();
+    archive("factors/serve", serve);
+    archive("factors/count", count_);
+    if constexpr (A::restores) {
+      regular_ = false;
+      topology_ = 0;
+    }
+    if (!serve) return;
+    archive("factors/mass_weight", weights_.mass);
+    archive("factors/rate_weight", weights_.rate);
+    archive("factors/scale", scale_);
+    if constexpr (A::restores) A_ = equations.pattern();
+    std::vector<double> entries(A_.valuePtr(), A_.valuePtr() + A_.nonZeros());
+    archive("factors/entries", entries);
+    if constexpr (A::restores) {
+      std::copy(entries.begin(), entries.end(), A_.valuePtr());
+      solver_.analyse(A_, equations.roles());
+      topology_ = equations.topology();
+      regular_ = solver_.factorise(A_);
+    }
   }
 
   /// The next solution factorises anew.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/mbs/generalized_alpha.hpp>
 
 namespace sphmbs::mbs {
@@ -44,6 +45,14 @@ class MeanLoad {
   void accept(End end, double h) {
     last_ = std::move(end);
     last_h_ = h;
+  }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("filtered", last_.filtered);
+    archive("load", last_.load);
+    archive("step", last_h_);
   }
 
  private:

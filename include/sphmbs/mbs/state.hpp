@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/mbs/types.hpp>
 
 namespace sphmbs::mbs {
@@ -12,6 +13,16 @@ struct State {
   VectorXd v;       ///< dq/dt
   VectorXd vdot;    ///< d2q/dt2
   VectorXd lambda;  ///< Lagrange multipliers, one a condition; -Phi_q^T lambda is what joints exert
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("t", t);
+    archive("q", q);
+    archive("v", v);
+    archive("vdot", vdot);
+    archive("lambda", lambda);
+  }
 };
 
 /// Weights of the iteration matrix: mass * M + d/dq + rate * d/dv.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/atomic.hpp>
 #include <sphmbs/execution/scan.hpp>
 #include <sphmbs/neighbours/cell_grid.hpp>
@@ -165,6 +166,21 @@ class CellList {
   /// The same, and in the lists of openings' particles also others of the same opening, which
   /// `view` leaves out. Only where there are openings.
   NeighbourView whole() const { return {first_.data(), whole_.data(), list_.data()}; }
+
+  /// The lists: sums over neighbours go by their order, which new lists at another time lack.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::uint64_t entries = first_.size(), pairs = 0;
+    archive("entries", entries);
+    if (!A::restores && entries > 0)
+      Policy::download(&pairs, first_.data() + (entries - 1), sizeof pairs);
+    archive("pairs", pairs);
+    const auto n = static_cast<std::size_t>(entries), last = n > 0 ? n - 1 : 0;
+    archive.field("first", first_, n, n);
+    archive.field("list", list_, pairs, pairs + pairs / 256);
+    archive.field("last", last_, last, last);
+    archive.field("whole", whole_, last, last);
+  }
 
   /// Memory held [bytes].
   std::size_t bytes() const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/execution/field.hpp>
 #include <sphmbs/particles/cloud.hpp>
@@ -87,16 +88,11 @@ class Particles {
       patch_ = Field<T>(padded());
       put(patch_, [&](std::size_t i) { return std::pow(cloud.m[i] / cloud.rho[i], 1.0 / Dim); });
     }
-    if (has_openings_)
-      for (int k = 0; k <= Dim; ++k)
-        (k < Dim ? push_[k] : heating_) = Field<T>(std::vector<T>(padded()));
     std::vector<std::uint32_t> id(n);
     std::iota(id.begin(), id.end(), 0u);
     id_ = Field<std::uint32_t>(id);
     set_ = Field<std::uint8_t>(cloud.set);
-    pairs_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
-    falls_ = Field<std::uint16_t>(std::vector<std::uint16_t>(n));
-    records_ = Field<T>(n * record_size<Dim, T>);
+    make_room_for_rates();
   }
 
   /// Number of particles.
@@ -187,6 +183,34 @@ class Particles {
     records_ = std::move(records);
   }
 
+  /// The state of all particles, in their order. Rates and records are not part of it.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::uint64_t n = size_;
+    archive("count", n);
+    size_ = static_cast<std::size_t>(n);
+    const auto show = [&](const std::string& name, auto& field, std::size_t capacity) {
+      archive.field(name, field, size_, capacity);
+    };
+    for (int k = 0; k < Dim; ++k) {
+      const char axis = "xyz"[k];
+      show(std::string("r_") + axis, r_[k], padded());
+      show(std::string("rest_") + axis, rest_[k], padded());
+      show(std::string("v_") + axis, v_[k], padded());
+      show(std::string("normal_") + axis, normal_[k], padded());
+    }
+    show("rho", rho_, padded());
+    show("e", e_, padded());
+    show("h", h_, padded());
+    show("m", m_, padded());
+    show("depth", depth_, padded());
+    show("patch", patch_, padded());
+    show("id", id_, size_);
+    show("set", set_, size_);
+    show("sheet", sheet_, size_);
+    if constexpr (A::restores) make_room_for_rates();
+  }
+
   /// Memory held [bytes].
   std::size_t bytes() {
     std::size_t b = records_.bytes() + id_.bytes() + set_.bytes() + pairs_.bytes() +
@@ -212,6 +236,20 @@ class Particles {
     for (int k = 0; k < Dim; ++k)
       for (Field<T>* f : {&normal_[k], &push_[k], &rest_[k]}) all.push_back(f);
     return all;
+  }
+
+  void make_room_for_rates() {
+    std::vector<Field<T>*> fields{&rho_rate_, &e_rate_, &h_rate_, &scratch_};
+    for (int k = 0; k < Dim; ++k) {
+      fields.push_back(&r_rate_[k]);
+      fields.push_back(&v_rate_[k]);
+      if (has_openings_) fields.push_back(&push_[k]);
+    }
+    if (has_openings_) fields.push_back(&heating_);
+    for (Field<T>* f : fields) *f = Field<T>(std::vector<T>(padded()));
+    pairs_ = Field<std::uint16_t>(std::vector<std::uint16_t>(size_));
+    falls_ = Field<std::uint16_t>(std::vector<std::uint16_t>(size_));
+    records_ = Field<T>(size_ * record_size<Dim, T>);
   }
 
   void put_places(const std::vector<Vec<Dim>>& places, std::vector<T>& column) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/sph/survey.hpp>
 
 namespace sphmbs::sph {
@@ -40,6 +41,15 @@ class Exchange {
     wall_work_ += scale * wall_power_;
     layer_work_ += scale * layer_power_;
     body_work_ += scale * body_power_;
+  }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("impulse", impulse_);
+    archive("wall_work", wall_work_);
+    archive("layer_work", layer_work_);
+    archive("body_work", body_work_);
   }
 
  private:

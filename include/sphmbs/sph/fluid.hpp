@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/execution/default.hpp>
 #include <sphmbs/execution/reduce.hpp>
 #include <sphmbs/neighbours/cell_list.hpp>
@@ -183,6 +184,22 @@ class Fluid {
 
   /// See Vicinities; from an evaluation of the rates to the end of the step.
   const T* vicinities() const { return vicinities_.data(); }
+
+  /// Between steps.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("time", time_);
+    archive("last_dt", last_dt_);
+    archive("gas_count", gas_count_);
+    archive("gas_mass", gas_mass_);
+    archive("particles", particles_);
+    archive("openings", openings_);
+    archive("neighbours", search_);
+    archive("lists", lists_);
+    archive("exchange", exchange_);
+    archive("statistics", statistics_);
+    if constexpr (A::restores) vicinities_.resize(size());
+  }
 
   /// Memory that particles and lists take where loops run [bytes].
   std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }

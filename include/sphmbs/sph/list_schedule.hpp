@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/neighbours/neighbour_search.hpp>
 
 namespace sphmbs::sph {
@@ -68,6 +69,21 @@ class ListSchedule {
   const neighbours::Reach& reach() const { return reach_; }
   /// What the last stage allowed prescribed motion beyond its velocity [m].
   double surplus() const { return surplus_; }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("support", reach_.support);
+    archive("skin", reach_.skin);
+    archive("h_max", reach_.h_max);
+    archive("built", built_);
+    archive("surplus", surplus_);
+    archive("drift", drift_);
+    archive("speed", speed_);
+    archive("step", step_);
+    archive("stage", stage_);
+    archive("lookahead", lookahead_);
+  }
 
  private:
   neighbours::Reach reach_{};

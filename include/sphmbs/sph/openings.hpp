@@ -121,6 +121,15 @@ class Openings {
     return all;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("next_id", next_id_);
+    archive("particle_count", particle_count_);
+    archive("way", way_);
+    archive("traffic", traffic_);
+  }
+
  private:
   using View = execution::Field<particles::OpeningView<dim, T>, Policy>;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/geometry/domain.hpp>
 #include <sphmbs/neighbours/neighbour_search.hpp>
 #include <sphmbs/particles/fields.hpp>
@@ -25,6 +26,16 @@ struct Passed {
     momentum += o.momentum;
     energy += o.energy;
   }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("particles", particles);
+    archive("mass", mass);
+    archive("volume", volume);
+    archive("momentum", momentum);
+    archive("energy", energy);
+  }
 };
 
 /// Into the gas and out of it.
@@ -43,6 +54,13 @@ struct Traffic {
   SPHMBS_INLINE void combine(const Traffic& o) {
     in.combine(o.in);
     out.combine(o.out);
+  }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("in", in);
+    archive("out", out);
   }
 };
 

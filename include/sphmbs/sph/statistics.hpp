@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <sphmbs/core/archive.hpp>
+
 namespace sphmbs::sph {
 
 /// Parts of a step whose time is taken.
@@ -30,6 +32,17 @@ struct Statistics {
     pair_interactions += pairs;
     falls += refused;
     ++evaluations;
+  }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("steps", steps);
+    archive("evaluations", evaluations);
+    archive("rebuilds", rebuilds);
+    archive("pair_interactions", pair_interactions);
+    archive("falls", falls);
+    archive("seconds", seconds);
   }
 
   /// Adds the time until the returned object dies to a phase.

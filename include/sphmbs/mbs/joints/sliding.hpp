@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/mbs/constraint.hpp>
 #include <sphmbs/mbs/forces/penalty.hpp>
@@ -78,6 +81,14 @@ class Sliding {
     if (now == element_) return false;
     move_to(now);
     return true;
+  }
+
+  /// What a checkpoint keeps of it, see `Archive`.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::uint64_t element = element_;
+    archive("element", element);
+    if (A::restores) move_to(std::min<std::size_t>(element, rail_.size() - 1));
   }
 
   /// Phi: the point less the rail at its place.

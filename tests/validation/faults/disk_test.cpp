@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Disks that are full, fail or go away, and memory that is not enough: never a damaged file under a
+// final name, and the last good checkpoint stays.
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/process.hpp"
+#include "support/program.hpp"
+#include "support/results.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr const char* program = SPHMBS_LAGRANGE_GUN;
+
+struct Ended {
+  int code;
+  std::string log;
+};
+
+Ended run(const test::Scratch& scratch, const Words& more, const test::Surroundings& around = {}) {
+  const fs::path log = scratch.path() / "log";
+  fs::remove(log);
+  Words words{"--spacing", "0.02", "--until", "0.3", "--no-plots"};
+  words.insert(words.end(), more.begin(), more.end());
+  test::Process process(program, words, log, around);
+  const int code = process.wait();
+  return {code, test::text_of(log)};
+}
+
+/// Every checkpoint that has its final name is one that a run goes on from.
+void check_checkpoints(const test::Scratch& scratch, const fs::path& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "checkpoint", none)) {
+    CHECK(entry.path().extension() == ".ckpt");
+    const Ended ended =
+        run(scratch, {"--output", folder.string(), "--resume", entry.path().string()});
+    INFO(ended.log);
+    CHECK(ended.code == 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no file may grow: the run ends with exit code 5 or goes on", "[fault]") {
+  for (const rlim_t most : {0, 1000, 5000, 20000, 100000}) {
+    CAPTURE(most);
+    const test::Scratch scratch;
+    const fs::path folder = scratch.work() / "run";
+    const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+                            {.file_size = most});
+    INFO(ended.log);
+    CHECK(ended.code == 5);
+    CHECK_THAT(ended.log, Catch::Contains("error E5") && Catch::Contains(folder.string()) &&
+                              Catch::Contains("File too large"));
+    check_checkpoints(scratch, folder);
+  }
+}
+
+TEST_CASE("the n-th call on a checkpoint fails: no effect, or the next one serves", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path straight = scratch.work() / "straight";
+  REQUIRE(run(scratch, {"--output", straight.string()}).code == 0);
+  for (const int error : {0, EINTR, EIO})
+    for (const int at : {1, 2, 3, 10, 500, 501, 502, 503, 504, 505, 506, 507, 508, 509, 510, 700}) {
+      CAPTURE(error, at);
+      const fs::path folder = scratch.work() / "run";
+      fs::remove_all(folder);
+      const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+                              {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                               {"FAIL_IN", (folder / "checkpoint").string()},
+                                               {"FAIL_AT", std::to_string(at)},
+                                               {"FAIL_WITH", std::to_string(error)}}});
+      INFO(ended.log);
+      CHECK(ended.code == 0);  // one failure is a warning
+      CHECK((ended.log.find("checkpoint not written") != std::string::npos) == (error == EIO));
+      CHECK(test::differences(straight, folder) == "");
+      for (const auto& entry : fs::directory_iterator(folder / "checkpoint"))
+        CHECK(entry.path().extension() == ".ckpt");
+    }
+}
+
+TEST_CASE("a folder for checkpoints that goes away is told of, and ends the run in the end",
+          "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  fs::create_directories(folder);
+  std::ofstream(folder / "checkpoint") << "a file, not a folder";
+  const Ended ended =
+      run(scratch, {"--output", folder.string(), "--overwrite", "--checkpoint-every", "1e-6"});
+  INFO(ended.log);
+  CHECK(ended.code == 5);
+  CHECK_THAT(ended.log, Catch::Contains((folder / "checkpoint").string()));
+}
+
+TEST_CASE("a damaged checkpoint gives way to the one before, which is said", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run", straight = scratch.work() / "straight";
+  REQUIRE(run(scratch, {"--output", straight.string()}).code == 0);
+  REQUIRE(run(scratch, {"--output", folder.string(), "--steps", "10"}).code == 0);
+  REQUIRE(run(scratch, {"--output", folder.string(), "--steps", "20", "--resume"}).code == 0);
+  const fs::path newest = folder / "checkpoint" / "step_00000000000000000020.ckpt";
+  std::string bytes = test::text_of(newest);
+  bytes[bytes.size() / 2] ^= 4;
+  std::ofstream(newest, std::ios::binary) << bytes;
+  const Ended named = run(scratch, {"--output", folder.string(), "--resume", newest.string()});
+  CHECK(named.code == 4);
+  CHECK_THAT(named.log, Catch::Contains("error E403") && Catch::Contains("checksum of section"));
+  const Ended ended = run(scratch, {"--output", folder.string(), "--resume"});
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.log, Catch::Contains("checksum of section") && Catch::Contains("skipped") &&
+                            Catch::Contains("step 10"));
+  CHECK(test::differences(straight, folder) == "");
+}
+
+TEST_CASE("memory that is not enough ends a run with exit code 6", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  const Ended ended =
+      run(scratch, {"--output", folder.string(), "--spacing", "1e-6"}, {.memory = rlim_t{1} << 29});
+  INFO(ended.log);
+  CHECK(ended.code == 6);
+  CHECK_THAT(ended.log, Catch::Contains("memory"));
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// A run that is killed, asked to end or left alone by its terminal goes on later as if nothing had
+// been, and asking twice ends it at once.
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/process.hpp"
+#include "support/program.hpp"
+#include "support/results.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Gas and a body, about a second in a Release build.
+constexpr const char* program = SPHMBS_LAGRANGE_GUN;
+const Words options{"--spacing", "0.002", "--until", "0.5", "--no-plots"};
+
+class Runs {
+ public:
+  Runs() {
+    const test::Ended ended = test::start(scratch_, program, with({"--output", "straight"}));
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+  }
+
+  fs::path folder() const { return scratch_.work() / "run"; }
+  std::string log() const { return test::text_of(scratch_.path() / "log"); }
+  bool begun() const { return fs::exists(folder() / "history.csv"); }
+
+  test::Process start(const Words& more = {}, const test::Surroundings& surroundings = {}) {
+    return {program, with({"--output", folder().string()}, more), scratch_.path() / "log",
+            surroundings};
+  }
+
+  /// Goes on to the end, from the beginning where nothing was saved.
+  void finish() {
+    const bool saved = fs::exists(folder() / "checkpoint");
+    test::Process last = start({saved ? "--resume" : "--overwrite"});
+    const int code = last.wait();
+    INFO(log());
+    REQUIRE(code == 0);
+    CHECK(test::differences(scratch_.work() / "straight", folder()) == "");
+  }
+
+  void clear() {
+    fs::remove_all(folder());
+    fs::remove(scratch_.path() / "log");
+  }
+
+ private:
+  static Words with(const Words& a, const Words& b = {}) {
+    Words words = options;
+    words.insert(words.end(), a.begin(), a.end());
+    words.insert(words.end(), b.begin(), b.end());
+    return words;
+  }
+  test::Scratch scratch_;
+};
+
+void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+}  // namespace
+
+TEST_CASE("killed at any time, a run goes on from a checkpoint that is whole", "[fault]") {
+  Runs runs;
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    runs.clear();
+    // Every step a checkpoint: most of the time goes into writing them.
+    test::Process process = runs.start({"--checkpoint-every", "1e-6"});
+    REQUIRE(test::wait_until([&] { return runs.begun(); }));
+    sleep(1e-3 * static_cast<double>(random() % 300));
+    process.signal(SIGKILL);
+    CHECK(process.wait() == 128 + SIGKILL);
+    runs.finish();
+  }
+}
+
+TEST_CASE("asked to end, a run saves its state within a step and says how to go on", "[fault]") {
+  Runs runs;
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 12; ++trial) {
+    const int signal = std::array{SIGTERM, SIGINT, SIGHUP}[static_cast<std::size_t>(trial % 3)];
+    runs.clear();
+    test::Process process = runs.start();
+    REQUIRE(test::wait_until([&] { return runs.begun(); }));
+    sleep(1e-3 * static_cast<double>(random() % 200));
+    process.signal(signal);
+    const auto asked = std::chrono::steady_clock::now();
+    CHECK(process.wait() == 128 + signal);
+    CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(5));
+    CHECK_THAT(runs.log(), Catch::Contains("go on with --resume"));
+    CHECK(fs::exists(runs.folder() / "summary.json"));
+    runs.finish();
+  }
+}
+
+TEST_CASE("asked to end twice, a run ends at once", "[fault]") {
+  Runs runs;
+  runs.clear();
+  // The first SIGINT is noted while checkpoints are written, the second one ends that.
+  test::Process process = runs.start({"--checkpoint-every", "1e-6"});
+  REQUIRE(test::wait_until([&] { return runs.begun(); }));
+  process.signal(SIGINT);
+  process.signal(SIGINT);
+  const auto asked = std::chrono::steady_clock::now();
+  CHECK(process.wait() == 128 + SIGINT);
+  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(2));
+  runs.finish();
+}
+
+TEST_CASE("SIGUSR1 saves the state and the run goes on; so it does without a reader", "[fault]") {
+  Runs runs;
+  test::Process process = runs.start({}, {.output_gone = true});
+  REQUIRE(test::wait_until([&] { return runs.begun(); }));
+  process.signal(SIGUSR1);
+  CHECK(test::wait_until([&] { return fs::exists(runs.folder() / "checkpoint"); }));
+  CHECK(process.wait() == 0);
+  runs.finish();
+}
+
+TEST_CASE("a file named stop and the time on the clock end a run with a checkpoint", "[fault]") {
+  Runs runs;
+  test::Process process = runs.start();
+  REQUIRE(test::wait_until([&] { return runs.begun(); }));
+  std::ofstream(runs.folder() / "stop") << "";
+  CHECK(process.wait() == 0);
+  CHECK_FALSE(fs::exists(runs.folder() / "stop"));
+  test::Process second = runs.start({"--resume", "--walltime", "1e-3"});
+  CHECK(second.wait() == 0);
+  CHECK_THAT(runs.log(), Catch::Contains("stopped   by the file stop") &&
+                             Catch::Contains("stopped   by the wall time of 0.001 s"));
+  runs.finish();
+}
