@@ -3,6 +3,8 @@
 #pragma once
 
 #include <sphmbs/coupling.hpp>
+#include <sphmbs/io/checkpoints.hpp>
+#include <sphmbs/io/state_archive.hpp>
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/ancf/cable.hpp>
 #include <sphmbs/mbs/ancf/line.hpp>

@@ -3,7 +3,7 @@
 # compile. In the line above each ```cpp fence stands what becomes of it:
 #   <!-- compile: program -->             a whole program, built and run in an empty folder
 #   <!-- compile: page -->                all of these of a page, one after the other, are a program
-#   <!-- compile: file -->                declarations, in a namespace of the page
+#   <!-- compile: file -->                declarations, in a namespace of the page, after fragments.hpp
 #   <!-- compile: body, PRELUDE -->       statements, after those of preludes/PRELUDE.inc
 #   <!-- compile: as examples/x.cpp -->   stands in this file, line for line
 #   <!-- compile: no, REASON -->          is not compiled
