@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash
-# Shared by scripts/run, scripts/test and scripts/coverage, which have changed to the root of the repository.
+# Shared by the scripts beside it, which have changed to the root of the repository.
 
 fail() {
   echo "error: $1" >&2

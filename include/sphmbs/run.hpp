@@ -20,9 +20,9 @@ namespace sphmbs {
 
 /// How long to run and how long a step may be.
 struct Schedule {
-  double until;                     // end time [s]
-  double cfl = 0.4;                 // share of the stability limits, where `step` is not given [-]
-  std::optional<double> step = {};  // fixed step [s]
+  double until;      ///< end time [s]
+  double cfl = 0.4;  ///< share of the stability limits, where `step` is not given [-]
+  std::optional<double> step = {};  ///< fixed step [s]
   /// Steps below this, 20 in a row, end the run; where it is not given, a millionth of the first
   /// step [s].
   std::optional<double> floor = {};
@@ -96,11 +96,15 @@ class Every {
 template <class Action>
 class BetweenSteps {
  public:
+  /// @param action  called as action(system), returns whether the run goes on.
   explicit BetweenSteps(Action action) : action_(std::move(action)) {}
 
+  /// Steps are not shortened.
   double barrier() const { return std::numeric_limits<double>::infinity(); }
+  /// Nothing is done while a step is under way.
   template <class System>
   void observe(System&, bool) const {}
+  /// Calls the action; false ends the run.
   template <class System>
   bool between_steps(System& system) {
     return action_(system);

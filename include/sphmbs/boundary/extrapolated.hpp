@@ -21,14 +21,17 @@ namespace sphmbs::boundary {
 /// wall, and the rise of pressure by 0.2 rho c^2. Convex edges of a solid are not treated.
 template <bool slip>
 struct Extrapolated {
+  /// Whether virtual particles carry a state, see `WallModel`.
   static constexpr bool evolves = false;
-  static constexpr bool surfaces = true;
-  static constexpr bool slips = slip;
+  static constexpr bool surfaces = true;  ///< whether the true surface is used, see `WallModel`
+  static constexpr bool slips = slip;     ///< whether gas slides along without friction
 
-  bool isothermal = false;  // at the temperature of the virtual particles' own state, or adiabatic
-  double strength = 3;      // of the dissipation [-]
-  double steepest = 4;      // bound of phi [-]
+  /// Wall at the temperature of the virtual particles' own state; false: adiabatic.
+  bool isothermal = false;
+  double strength = 3;  ///< of the dissipation [-]
+  double steepest = 4;  ///< bound of phi [-]
 
+  /// What meets in the middle of a pair, from the gas's slopes and the distance of the surface.
   template <int Dim, class N>
   SPHMBS_INLINE Contact<Dim, N> contact(const Meeting<Dim, N>& m) const {
     const auto number = [](double x) SPHMBS_INLINE_LAMBDA { return N(static_cast<Scalar<N>>(x)); };

@@ -11,16 +11,19 @@ namespace sphmbs::boundary {
 /// needed; but the pressure is of first order and gas that slides along a wall is braked, since
 /// most pairs are oblique.
 struct Mirrored {
+  /// Whether virtual particles carry a state, see `WallModel`.
   static constexpr bool evolves = false;
-  static constexpr bool surfaces = false;
-  static constexpr bool slips = false;
+  static constexpr bool surfaces = false;  ///< whether the true surface is used, see `WallModel`
+  static constexpr bool slips = false;     ///< whether gas slides along without friction
 
+  /// The far side of the pair's Riemann problem: the gas, mirrored at the moving wall.
   template <class N>
   SPHMBS_INLINE riemann::State<N> facing(const riemann::State<N>& gas,
                                          const riemann::State<N>& stored) const {
     return {.rho = gas.rho, .u = N(2) * stored.u - gas.u, .p = gas.p, .c = gas.c};
   }
 
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 

@@ -11,8 +11,8 @@ namespace sphmbs::boundary {
 
 /// Which virtual particle moves.
 struct Mark {
-  int set;           // number of its set
-  std::uint32_t id;  // place in the initial cloud
+  int set;           ///< number of its set
+  std::uint32_t id;  ///< place in the initial cloud
 };
 
 /// Prescribed motion of virtual particles. `position` carries a particle from time t0 to t1 and
@@ -29,10 +29,12 @@ concept Motion = std::is_trivially_copyable_v<M> &&
 
 /// All virtual particles stay where they are.
 struct Fixed {
+  /// Place at time t1 of what is at r [m] at time t0 [s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double, double) const {
     return r;
   }
+  /// Velocity at place r [m] and time t [s], in [m/s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>&, double) const {
     return Vec<Dim, T>::all(T(0));
@@ -42,18 +44,21 @@ struct Fixed {
 /// Uniform contraction towards the origin at a constant speed of the walls: r = l(t) / l(0) r(0),
 /// l(t) = length - 2 speed t, for every set. The sealed cavity of sect. 5.2.
 struct Contraction {
-  double length;  // between two opposite walls at time 0 [m]
-  double speed;   // of each wall, inwards [m/s]
+  double length;  ///< between two opposite walls at time 0 [m]
+  double speed;   ///< of each wall, inwards [m/s]
 
+  /// Place at time t1 of what is at r [m] at time t0 [s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> position(Mark, const Vec<Dim, T>& r, double t0, double t1) const {
     return static_cast<T>(length_at(t1) / length_at(t0)) * r;
   }
+  /// Velocity at place r [m] and time t [s], in [m/s].
   template <int Dim, class T>
   SPHMBS_INLINE Vec<Dim, T> velocity(Mark, const Vec<Dim, T>& r, double t) const {
     return static_cast<T>(-2 * speed / length_at(t)) * r;
   }
 
+  /// Ratio of lengths of the solid, time t1 to time t0 [-].
   SPHMBS_INLINE double stretch(Mark, double t0, double t1) const {
     return length_at(t1) / length_at(t0);
   }

@@ -14,20 +14,20 @@ namespace sphmbs::boundary {
 /// A gas particle and a virtual particle, seen from the gas.
 template <int Dim, class N>
 struct Meeting {
-  particles::Record<Dim, N> gas;
-  particles::Slopes<Dim, N> slopes;  // of the gas
-  Vec<Dim, N> wall_velocity;         // of the surface in front of the virtual particle [m/s]
-  Vec<Dim, N> d;                     // way from the gas to the virtual particle [m]
-  Vec<Dim, N> normal;                // of the surface, from the gas into the solid [-]
-  N depth;                           // of the virtual particle below the surface [m]
+  particles::Record<Dim, N> gas;     ///< the gas particle
+  particles::Slopes<Dim, N> slopes;  ///< of the gas
+  Vec<Dim, N> wall_velocity;         ///< of the surface in front of the virtual particle [m/s]
+  Vec<Dim, N> d;                     ///< way from the gas to the virtual particle [m]
+  Vec<Dim, N> normal;                ///< of the surface, from the gas into the solid [-]
+  N depth;                           ///< of the virtual particle below the surface [m]
 };
 
 /// What meets in the middle between them.
 template <int Dim, class N>
 struct Contact {
-  Vec<Dim, N> v;  // velocity [m/s]
-  N p;            // pressure [Pa]
-  N phi;          // way to the middle as a share of the gas's distance from the surface [-]
+  Vec<Dim, N> v;  ///< velocity [m/s]
+  N p;            ///< pressure [Pa]
+  N phi;          ///< way to the middle as a share of the gas's distance from the surface [-]
 };
 
 /// A wall model says what gas meets at a virtual particle. There are two kinds:

@@ -52,10 +52,12 @@ inline constexpr int native_lanes = detail::vector_bytes<T>() / static_cast<int>
 /// Result of comparing two packs: one truth value a lane.
 template <class T, int W>
 struct Mask {
+  /// The compiler's vector of truth values.
   using Vector = decltype(typename detail::VectorOf<T, W>::type{} <
                           typename detail::VectorOf<T, W>::type{});
-  Vector v;
+  Vector v;  ///< the lanes
 
+  /// Lanes in which both hold.
   friend SPHMBS_INLINE Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
 
   /// Bit l is the truth of lane l.
@@ -88,15 +90,18 @@ struct Mask {
 /// W numbers of type T, computed with lane by lane.
 template <class T, int W>
 struct Pack {
-  using Vector = typename detail::VectorOf<T, W>::type;
-  using Scalar = T;
-  static constexpr int lanes = W;
-  Vector v;
+  using Vector = typename detail::VectorOf<T, W>::type;  ///< the compiler's vector type
+  using Scalar = T;                                      ///< type of a lane
+  static constexpr int lanes = W;                        ///< numbers computed with at once
+  Vector v;                                              ///< the lanes
 
   Pack() = default;
+  /// From the compiler's vector.
   SPHMBS_INLINE Pack(Vector x) : v(x) {}
+  /// The same number in every lane.
   SPHMBS_INLINE Pack(T x) : v(x - Vector{}) {}
 
+  ///@{ Arithmetic, lane by lane.
   friend SPHMBS_INLINE Pack operator+(Pack a, Pack b) { return a.v + b.v; }
   friend SPHMBS_INLINE Pack operator-(Pack a, Pack b) { return a.v - b.v; }
   friend SPHMBS_INLINE Pack operator*(Pack a, Pack b) { return a.v * b.v; }
@@ -105,7 +110,9 @@ struct Pack {
   SPHMBS_INLINE Pack& operator+=(Pack b) { return v += b.v, *this; }
   SPHMBS_INLINE Pack& operator-=(Pack b) { return v -= b.v, *this; }
   SPHMBS_INLINE Pack& operator*=(Pack b) { return v *= b.v, *this; }
+  ///@}
 
+  /// Lanes in which a is below b.
   friend SPHMBS_INLINE Mask<T, W> operator<(Pack a, Pack b) { return {a.v < b.v}; }
   /// The bits of a < b, by the instruction that yields them where there is one.
   friend SPHMBS_INLINE unsigned bits_less(Pack a, Pack b) {
@@ -115,6 +122,7 @@ struct Pack {
 #endif
     return (a < b).bits();
   }
+  /// Lanes in which a is above b.
   friend SPHMBS_INLINE Mask<T, W> operator>(Pack a, Pack b) { return {a.v > b.v}; }
 
   /// W consecutive numbers from memory, no alignment needed.
@@ -125,7 +133,9 @@ struct Pack {
 
 /// Sum of the lanes in a fixed order, or the number itself.
 SPHMBS_INLINE double lane_sum(double a) { return a; }
+/// A number is its own sum.
 SPHMBS_INLINE float lane_sum(float a) { return a; }
+/// Sum over the lanes, in an order that depends on their number alone.
 template <class T, int W>
 SPHMBS_INLINE T lane_sum(Pack<T, W> a) {
   if constexpr (W == 8)
@@ -137,7 +147,9 @@ SPHMBS_INLINE T lane_sum(Pack<T, W> a) {
 
 /// Largest of the lanes, or the number itself.
 SPHMBS_INLINE double lane_max(double a) { return a; }
+/// A number is its own maximum.
 SPHMBS_INLINE float lane_max(float a) { return a; }
+/// Largest of the lanes.
 template <class T, int W>
 SPHMBS_INLINE T lane_max(Pack<T, W> a) {
   T s = a.v[0];

@@ -10,9 +10,11 @@ namespace sphmbs {
 template <int Dim, class N = double>
 struct Vec {
   static_assert(Dim >= 1 && Dim <= 3, "space has one, two or three dimensions");
-  N component[Dim];
+  N component[Dim];  ///< along x, y, z
 
+  /// Component along axis k = 0, 1, 2; not checked.
   SPHMBS_INLINE constexpr N& operator[](int k) { return component[k]; }
+  /// Component along axis k = 0, 1, 2; not checked.
   SPHMBS_INLINE constexpr const N& operator[](int k) const { return component[k]; }
 
   /// The same value along every axis.
@@ -34,6 +36,7 @@ struct Vec {
     return a;
   }
 
+  /// Adds b, component by component.
   template <class M>
   SPHMBS_INLINE constexpr Vec& operator+=(const Vec<Dim, M>& b) {
     component[0] += b[0];
@@ -42,6 +45,7 @@ struct Vec {
     return *this;
   }
 
+  /// Subtracts b, component by component.
   template <class M>
   SPHMBS_INLINE constexpr Vec& operator-=(const Vec<Dim, M>& b) {
     component[0] -= b[0];
@@ -50,9 +54,11 @@ struct Vec {
     return *this;
   }
 
+  /// Whether all components are equal.
   friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
+/// Sum, in the number type that the sum of two components has.
 template <int Dim, class A, class B>
 SPHMBS_INLINE constexpr auto operator+(const Vec<Dim, A>& a, const Vec<Dim, B>& b) {
   Vec<Dim, decltype(a[0] + b[0])> c;
@@ -62,6 +68,7 @@ SPHMBS_INLINE constexpr auto operator+(const Vec<Dim, A>& a, const Vec<Dim, B>& 
   return c;
 }
 
+/// Difference.
 template <int Dim, class A, class B>
 SPHMBS_INLINE constexpr auto operator-(const Vec<Dim, A>& a, const Vec<Dim, B>& b) {
   Vec<Dim, decltype(a[0] - b[0])> c;
@@ -71,6 +78,7 @@ SPHMBS_INLINE constexpr auto operator-(const Vec<Dim, A>& a, const Vec<Dim, B>& 
   return c;
 }
 
+/// s times b.
 template <int Dim, class A, class B>
 SPHMBS_INLINE constexpr auto operator*(const A& s, const Vec<Dim, B>& b) {
   Vec<Dim, decltype(s * b[0])> c;
@@ -80,6 +88,7 @@ SPHMBS_INLINE constexpr auto operator*(const A& s, const Vec<Dim, B>& b) {
   return c;
 }
 
+/// Scalar product.
 template <int Dim, class A, class B>
 SPHMBS_INLINE constexpr auto dot(const Vec<Dim, A>& a, const Vec<Dim, B>& b) {
   auto s = a[0] * b[0];

@@ -15,10 +15,11 @@ namespace sphmbs::coupling {
 /// What has passed from the gas to the bodies since time 0.
 template <int Dim>
 struct Exchanged {
-  Vec<Dim> impulse = {};      // on the wetted particles [kg m/s]
-  double work_of_gas = 0;     // of the gas's forces at the velocities that it met [J]
-  double work_on_bodies = 0;  // of the same as a generalized force on the way of the bodies [J]
+  Vec<Dim> impulse = {};      ///< on the wetted particles [kg m/s]
+  double work_of_gas = 0;     ///< of the gas's forces at the velocities that it met [J]
+  double work_on_bodies = 0;  ///< of the same as a generalized force on the way of the bodies [J]
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("impulse", impulse);
@@ -35,7 +36,7 @@ struct Exchanged {
 template <class Fluid, class Bodies, class Surface>
 class Immersed {
  public:
-  static constexpr int dim = Fluid::dim;
+  static constexpr int dim = Fluid::dim;  ///< dimension of space
 
   /// The bodies start with the accelerations that they have under the gas's forces.
   /// @throws InvalidInput where gas and bodies are at different times, for a surface whose lever
@@ -57,18 +58,24 @@ class Immersed {
     watch_.begin(fluid, surface);
   }
 
-  double time() const { return fluid_.time(); }  // [s]
+  double time() const { return fluid_.time(); }  ///< [s]
+  /// The gas.
   Fluid& fluid() { return fluid_; }
-  Bodies& bodies() { return bodies_; }  // mbs::Dynamics
+  Bodies& bodies() { return bodies_; }  ///< mbs::Dynamics
+  /// What of the bodies the gas touches.
   Surface& surface() { return surface_; }
   /// Of the bodies: coordinates and rates, the structure, multipliers as mbs::Dynamics gives them.
   const mbs::State& state() const { return bodies_.state(); }
+  /// The bodies.
   const auto& structure() const { return bodies_.structure(); }
+  /// As Dynamics::multipliers.
   template <class T>
   mbs::VectorXd multipliers(int number) {
     return bodies_.template multipliers<T>(number);
   }
+  /// What was learnt of the gas at the last evaluation of its rates.
   const sph::Survey<dim>& survey() const { return fluid_.survey(); }
+  /// What has passed between gas and bodies since the start.
   const Exchanged<dim>& exchanged() const { return exchanged_; }
   /// Gaps between bodies that became narrow, and bodies that went through periodic sides.
   const std::vector<Incident>& incidents() const { return watch_.incidents(); }
@@ -112,17 +119,23 @@ class Immersed {
     before_ = {bodies_.memory(), mean_load_, exchanged_};
   }
   /// Sends the wetted particles on their way from such coordinates, rates and accelerations.
+  /// Virtual particles are to follow bodies that start from q with v and a.
   void depart(const mbs::VectorXd& q, const mbs::VectorXd& v, const mbs::VectorXd& a) {
     surface_.depart(bodies_.state().t, q, v, a);
     fluid_.motion() = surface_.motion();
   }
+  /// Reads the forces of the gas on the virtual particles.
   void read() { surface_.read(fluid_); }
   /// Generalized force of the forces that were read, or of others, where particles are at a time.
+  /// Generalized load at time t [s] of forces on the virtual particles [N].
   mbs::VectorXd load_at(double t) const { return load_at(t, surface_.forces()); }
+  /// Generalized load at time t [s] of forces on the virtual particles [N].
   mbs::VectorXd load_at(double t, const std::vector<Vec<dim>>& forces) const {
     return surface_.load(forces, t, static_cast<int>(bodies_.state().q.size()));
   }
+  /// The load of the gas over a step.
   mbs::MeanLoad& mean_load() { return mean_load_; }
+  /// What the repetitions of steps have shown so far.
   Repetition& repetition() { return repetition_; }
 
   /// The forces that were read have acted for dt, in the middle of which, at time t, they were

@@ -22,8 +22,8 @@ namespace sphmbs::coupling {
 template <int Space>
 class PointRows {
  public:
-  using Vector = mbs::Vector<Space>;
-  using VectorXd = mbs::VectorXd;
+  using Vector = mbs::Vector<Space>;  ///< a place or a force [m], [N]
+  using VectorXd = mbs::VectorXd;     ///< one number for each coordinate
 
   /// @param lever  of what gas meets and the force acts on, beyond the particle, along the normal
   void add(const WettedPoint<Space>& point, double lever) {
@@ -33,6 +33,7 @@ class PointRows {
     bare_ = bare_ && !given(point.normal) && !given(point.along[0]);
   }
 
+  /// Number of points.
   std::size_t size() const { return points_.size(); }
   /// From a particle to where the force acts, along the normal [m].
   double lever(std::size_t i) const { return arms_[i].lever; }

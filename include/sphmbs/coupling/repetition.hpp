@@ -16,9 +16,12 @@ namespace sphmbs::coupling {
 
 /// What the repetition x -> F(x) of coupling::Strong has shown so far.
 struct Repetition {
+  /// What one repetition has shown.
   struct Pair {
-    mbs::VectorXd residual, result;  // F(x) - x, F(x)
+    mbs::VectorXd residual;  ///< F(x) - x
+    mbs::VectorXd result;    ///< F(x)
 
+    /// What a checkpoint keeps of it, see `Archive`.
     template <Archive A>
     void visit_state(A& archive) {
       archive("residual", residual);
@@ -29,6 +32,7 @@ struct Repetition {
   /// A step begins; changes seen in earlier ones stay known.
   void begin() { last = {}; }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("last", last);
@@ -36,9 +40,9 @@ struct Repetition {
     archive("changes", changes);
   }
 
-  Pair last;                 // of this step; empty before its first
-  double share = 1;          // of the last correction that was taken [-]
-  std::deque<Pair> changes;  // from one repetition of a step to the next, newest first
+  Pair last;                 ///< of this step; empty before its first
+  double share = 1;          ///< of the last correction that was taken [-]
+  std::deque<Pair> changes;  ///< from one repetition of a step to the next, newest first
 };
 
 /// How the next x of a repetition follows from F(x).
@@ -52,10 +56,12 @@ concept RepetitionPolicy = requires(const R policy, const mbs::VectorXd x, Repet
 
 /// A fixed share of each correction.
 struct Relaxation {
-  double share = 0.5;  // [-]
+  double share = 0.5;  ///< [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const { expects(share > 0 && share <= 1, "share", share, "above 0 and at most 1"); }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result, Repetition&) const {
     return x + share * (result - x);
   }
@@ -64,14 +70,16 @@ struct Relaxation {
 /// A share of each correction that follows from the last two (Kuettler and Wall, Comput. Mech. 43,
 /// 2008).
 struct Aitken {
-  double first = 1;  // share of the first correction of a step [-]
-  double most = 1.5;
+  double first = 1;   ///< share of the first correction of a step [-]
+  double most = 1.5;  ///< largest share [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const {
     expects(first > 0 && first <= 1, "first share", first, "above 0 and at most 1");
     expects(most >= 1, "largest share", most, "at least 1");
   }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result,
                      Repetition& so_far) const {
     const mbs::VectorXd residual = result - x;
@@ -90,15 +98,17 @@ struct Aitken {
 /// Newton's method with the inverse Jacobian that fits the last changes best (IQN-ILS, Degroote,
 /// Bathe and Vierendeels, Comput. Struct. 87, 2009), of this step and of those before.
 struct QuasiNewton {
-  int most = 10;              // changes that are known [-]
-  double independent = 1e-2;  // share of a change that newer ones must leave of it [-]
+  int most = 10;              ///< changes that are known [-]
+  double independent = 1e-2;  ///< share of a change that newer ones must leave of it [-]
 
+  /// @throws InvalidInput for numbers out of range.
   void check() const {
     expects(most >= 1, "number of changes", most, "at least 1");
     expects(independent > 0 && independent < 1, "independent share", independent,
             "above 0 and below 1");
   }
 
+  /// The x to go on with after F(x) = result.
   mbs::VectorXd next(const mbs::VectorXd& x, const mbs::VectorXd& result,
                      Repetition& so_far) const {
     const mbs::VectorXd residual = result - x;

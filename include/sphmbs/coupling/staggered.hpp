@@ -13,10 +13,10 @@ namespace sphmbs::coupling {
 /// within a smoothing length of it is unstable: then take coupling::Strong.
 template <class Integrator = mbs::GeneralizedAlpha>
 struct Staggered {
-  Integrator structure = {};
-  bool accelerated = true;  // the way bends by the last acceleration; the paper's is straight
-  int gas_steps = 1;        // of the gas in one of the structure, over which forces are averaged
-  int structure_steps = 1;  // of the structure in one of the gas, under the same force
+  Integrator structure = {};  ///< integrator of the bodies
+  bool accelerated = true;    ///< the way bends by the last acceleration; the paper's is straight
+  int gas_steps = 1;        ///< of the gas in one of the structure, over which forces are averaged
+  int structure_steps = 1;  ///< of the structure in one of the gas, under the same force
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {

@@ -23,11 +23,11 @@ namespace sphmbs::coupling {
 /// structure and the forces on the wetted particles.
 template <RepetitionPolicy Repeat = QuasiNewton, class Integrator = mbs::GeneralizedAlpha>
 struct Strong {
-  Integrator structure = {};
-  Repeat repeat = {};
-  double tolerance = 1e-11;  // of the forces, relative [-]
-  int most = 50;             // repetitions
-  double slack = 0.03;       // of a smoothing length, for bodies to change their way by [-]
+  Integrator structure = {};  ///< integrator of the bodies
+  Repeat repeat = {};         ///< how the next repetition follows from the last
+  double tolerance = 1e-11;   ///< of the forces, relative [-]
+  int most = 50;              ///< repetitions
+  double slack = 0.03;        ///< of a smoothing length, for bodies to change their way by [-]
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {

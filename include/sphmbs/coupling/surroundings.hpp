@@ -20,14 +20,17 @@ namespace sphmbs::coupling {
 /// A particle at the surface of a body or a wall, or one of gas.
 template <int Dim>
 struct Seen {
-  Vec<Dim> r, normal;  // [m], out of the solid; zero where no surface is known
-  double depth;        // below the surface [m]
-  double spacing;      // [m]
-  int set;
-  std::uint32_t id;
-  bool sheet;  // of a thin body
+  Vec<Dim> r;        ///< [m]
+  Vec<Dim> normal;   ///< out of the solid; zero where no surface is known
+  double depth;      ///< below the surface [m]
+  double spacing;    ///< [m]
+  int set;           ///< of particles, as in messages
+  std::uint32_t id;  ///< of the particle, as in messages
+  bool sheet;        ///< of a thin body
 
+  /// Whether there is a solid behind its surface.
   bool solid() const { return norm2(normal) > 0 && !sheet; }
+  /// What messages call it.
   std::string name() const { return "#" + std::to_string(id) + " of set " + std::to_string(set); }
 
   /// How far a point in front of this particle is from the surface, negative behind it; endless for
@@ -59,6 +62,7 @@ struct Seen {
 template <int Dim>
 class Surroundings {
  public:
+  /// A period of the domain along each periodic axis.
   using Cell = std::array<int, static_cast<std::size_t>(Dim)>;
 
   /// @param with_gas  whether gas is gathered too
@@ -199,8 +203,9 @@ class Surroundings {
 
 /// How near gas is to the particles of bodies.
 struct NearestGas {
-  double distance = std::numeric_limits<double>::infinity();  // of centres, in spacings of the body
-  int inside = 0;                                             // gas particles within bodies
+  /// Least distance of centres, in spacings of the body.
+  double distance = std::numeric_limits<double>::infinity();
+  int inside = 0;  ///< gas particles within bodies
 };
 
 /// Looks at all of it, on the host.

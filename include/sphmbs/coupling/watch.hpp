@@ -21,10 +21,11 @@ namespace sphmbs::coupling {
 
 /// Something that happened to a body and that the equations go on through.
 struct Incident {
-  double time;       // [s]
-  std::string kind;  // "narrow gap" or "through a periodic side", with the sets
-  std::string text;
+  double time;       ///< [s]
+  std::string kind;  ///< "narrow gap" or "through a periodic side", with the sets
+  std::string text;  ///< one sentence, with time and sizes
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("time", time);
@@ -92,8 +93,10 @@ class Watch {
     });
   }
 
+  /// All so far, in order of time.
   const std::vector<Incident>& incidents() const { return incidents_; }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("time", time_);

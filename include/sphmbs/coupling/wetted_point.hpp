@@ -23,12 +23,13 @@ mbs::Vector<Space> in_space(const Vec<Dim>& x) {
 /// surface's normal.
 template <int Space>
 struct WettedPoint {
-  mbs::Marker<Space> at;           // [m]
-  mbs::Marker<Space> normal = {};  // of the surface, out of the body, of any length; may be empty
-  double offset = 0;               // of the particle from `at` along the normal [m]
-  // In space, in place of a normal: two vectors along the surface, whose product a x b it is.
+  mbs::Marker<Space> at;           ///< [m]
+  mbs::Marker<Space> normal = {};  ///< of the surface, out of the body, of any length; may be empty
+  double offset = 0;               ///< of the particle from `at` along the normal [m]
+  /// In space, in place of a normal: two vectors along the surface, whose product a x b it is.
   std::array<mbs::Marker<Space>, 2> along = {};
 
+  /// Normal of the surface at coordinates q, of any length.
   mbs::Vector<Space> normal_at(const mbs::VectorXd& q) const {
     if constexpr (Space == 3)
       return normal.at(q) + along[0].at(q).cross(along[1].at(q));

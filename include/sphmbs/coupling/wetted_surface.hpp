@@ -21,11 +21,12 @@ namespace sphmbs::coupling {
 /// Writes the force of gas on each virtual particle that rides on a body [N].
 template <int Dim, class T, class Motion>
 struct ReadForce {
-  particles::FieldsView<Dim, T> fields;
-  particles::RatesView<Dim, T> rates;
-  Motion motion;
-  Vec<Dim>* force;
+  particles::FieldsView<Dim, T> fields;  ///< of all particles
+  particles::RatesView<Dim, T> rates;    ///< of all particles
+  Motion motion;                         ///< which of the particles ride
+  Vec<Dim>* force;                       ///< of the gas on each riding particle, by its number [N]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const boundary::Mark mark{fields.set[i], fields.id[i]};
     if (!particles::is_virtual(fields.set[i]) || !motion.rides(mark)) return;
@@ -50,9 +51,9 @@ template <int Dim, execution::ExecutionPolicy Policy = execution::Default,
           class Rest = boundary::Fixed>
 class WettedSurface {
  public:
-  static constexpr int dim = Dim;
-  static constexpr int space = Dim == 3 ? 3 : 2;  // of the structure
-  using Motion = Riding<Dim, Rest>;
+  static constexpr int dim = Dim;                 ///< dimension of space
+  static constexpr int space = Dim == 3 ? 3 : 2;  ///< of the structure
+  using Motion = Riding<Dim, Rest>;               ///< motion of the virtual particles, for the gas
 
   /// @param rest  motion of the sets that ride on nothing
   /// @param lever whether gas meets the surface before a particle (where it sticks) or the particle
@@ -92,6 +93,7 @@ class WettedSurface {
 
   /// Whether gas meets the surface before a particle.
   bool lever() const { return lever_; }
+  /// Number of virtual particles that ride on the bodies.
   std::size_t size() const { return rows_.size(); }
   /// The smallest of the particles at the start [m].
   double smoothing_length() const { return smoothing_length_; }

@@ -8,9 +8,9 @@ namespace sphmbs::eos {
 
 /// Ideal gas with constant heat capacities, eqs. (5)-(7).
 struct IdealGas {
-  double gamma = 1.4;           // heat capacity ratio [-]
-  double molar_mass = 0.02895;  // air [kg/mol]
-  double gas_constant = 8.314;  // kappa in eq. (6) [J/(mol K)]
+  double gamma = 1.4;           ///< heat capacity ratio [-]
+  double molar_mass = 0.02895;  ///< air [kg/mol]
+  double gas_constant = 8.314;  ///< kappa in eq. (6) [J/(mol K)]
 
   /// p = (gamma - 1) rho e, eq. (5).
   template <class N>

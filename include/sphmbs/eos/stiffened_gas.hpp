@@ -9,16 +9,18 @@ namespace sphmbs::eos {
 /// Stiffened gas, p = (gamma - 1) rho e - gamma p_inf (Harlow and Amsden 1971): a compressible
 /// liquid or a dense gas. With p_inf = 0 it is the ideal gas.
 struct StiffenedGas {
-  double gamma = 4.4;             // [-]
-  double stiffness = 6e8;         // p_inf [Pa]
-  double heat_capacity_v = 1816;  // at constant volume [J/(kg K)]
+  double gamma = 4.4;             ///< [-]
+  double stiffness = 6e8;         ///< p_inf [Pa]
+  double heat_capacity_v = 1816;  ///< at constant volume [J/(kg K)]
 
+  /// p = (gamma - 1) rho e - gamma p_inf [Pa].
   template <class N>
   SPHMBS_INLINE N pressure(N rho, N e) const {
     return N(static_cast<Scalar<N>>(gamma - 1)) * rho * e -
            N(static_cast<Scalar<N>>(gamma * stiffness));
   }
 
+  /// Inverse of `pressure` [J/kg].
   template <class N>
   SPHMBS_INLINE N internal_energy(N rho, N p) const {
     return (p + N(static_cast<Scalar<N>>(gamma * stiffness))) /

@@ -55,6 +55,7 @@ __global__ void cuda_loop(std::size_t n, const F body) {
 /// An NVIDIA GPU, by CUDA: the yardstick for the policies without a vendor's language. Results are
 /// the same bits from run to run.
 struct Cuda : DeviceMemory<detail::CudaMemory> {
+  ///@{ As `ExecutionPolicy` asks.
   static constexpr std::string_view name = "cuda";
   using Host = Serial;
   template <class T>
@@ -72,6 +73,7 @@ struct Cuda : DeviceMemory<detail::CudaMemory> {
   }
 
   static int concurrency() { return 1 << 16; }
+  ///@}
 
   /// @throws InvalidInput where there is none.
   static Device device() {

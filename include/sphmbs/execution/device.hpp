@@ -14,10 +14,10 @@ namespace sphmbs::execution {
 
 /// Where the loops of a policy run.
 struct Device {
-  std::string name;        // as its driver calls it
-  std::size_t memory = 0;  // in all [bytes]; 0 where the runtime does not tell
-  std::size_t free = 0;    // for fields, those there are included [bytes]; 0 as before
-  bool is_host = false;    // for device policies: the host stands in, because the user asked for it
+  std::string name;        ///< as its driver calls it
+  std::size_t memory = 0;  ///< in all [bytes]; 0 where the runtime does not tell
+  std::size_t free = 0;    ///< for fields, those there are included [bytes]; 0 as before
+  bool is_host = false;  ///< for device policies: the host stands in, because the user asked for it
 };
 
 namespace detail {

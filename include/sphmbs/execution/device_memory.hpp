@@ -14,12 +14,13 @@ namespace sphmbs::execution {
 
 /// What has crossed the bus between host and device, counted copy by copy.
 struct BusTraffic {
-  std::uint64_t uploads = 0;     // copies to the device
-  std::uint64_t uploaded = 0;    // [bytes]
-  std::uint64_t downloads = 0;   // copies to the host
-  std::uint64_t downloaded = 0;  // [bytes]
-  std::uint64_t launches = 0;    // loops started on the device
-  std::uint64_t arguments = 0;   // of all loop bodies, which go with the launches [bytes]
+  std::uint64_t uploads = 0;     ///< copies to the device
+  std::uint64_t uploaded = 0;    ///< [bytes]
+  std::uint64_t downloads = 0;   ///< copies to the host
+  std::uint64_t downloaded = 0;  ///< [bytes]
+  std::uint64_t launches = 0;    ///< loops started on the device
+  std::uint64_t arguments = 0;   ///< of all loop bodies, which go with the launches [bytes]
+  /// All that was copied, both ways [bytes].
   std::uint64_t bytes() const { return uploaded + downloaded; }
 };
 
@@ -31,6 +32,7 @@ struct BusTraffic {
 template <class Raw>
 class DeviceMemory {
  public:
+  /// Items that one loop body of a reduction or a scan takes.
   static constexpr std::size_t chunk = 32;
 
   /// @throws InvalidInput where there is no device, std::bad_alloc where it has no room.
@@ -58,6 +60,7 @@ class DeviceMemory {
     return block;
   }
 
+  /// Gives a block back, which is kept for the next one of its size.
   static void release(void* block) noexcept {
     Pool& pool = the_pool();
     const std::lock_guard lock(pool.mutex);
@@ -70,6 +73,7 @@ class DeviceMemory {
     if (pool.waiting > (pool.held - pool.waiting) / 4 + least_waiting) free_idle(pool);
   }
 
+  /// Copies `bytes` to the device, and counts them.
   static void upload(void* there, const void* here, std::size_t bytes) {
     if (bytes == 0) return;
     count([&](BusTraffic& bus) {
@@ -78,6 +82,7 @@ class DeviceMemory {
     });
     Raw::to_device(there, here, bytes);
   }
+  /// Copies `bytes` from the device, and counts them.
   static void download(void* here, const void* there, std::size_t bytes) {
     if (bytes == 0) return;
     count([&](BusTraffic& bus) {
@@ -107,6 +112,7 @@ class DeviceMemory {
     return host;
   }
 
+  /// Counts a loop that is started with a body of so many bytes.
   static void count_launch(std::size_t argument_bytes) {
     count([&](BusTraffic& bus) {
       ++bus.launches;

@@ -18,6 +18,7 @@ concept LoopBody = std::is_trivially_copyable_v<F>;
 
 /// Stand-in for a loop body in concepts.
 struct Nothing {
+  /// Does nothing.
   void operator()(std::size_t) const {}
 };
 

@@ -18,11 +18,15 @@ class Field {
 
  public:
   Field() = default;
+  /// Room for `size` numbers, whose values are not set. @throws std::bad_alloc without room.
   explicit Field(std::size_t size)
       : data_(static_cast<T*>(size > 0 ? Policy::allocate(size * sizeof(T)) : nullptr)),
         size_(size) {}
+  /// A copy of numbers of the host.
   explicit Field(std::span<const T> host) : Field(host.size()) { upload(host); }
+  /// Takes the memory over.
   Field(Field&& other) noexcept { swap(other); }
+  /// Takes the memory over.
   Field& operator=(Field&& other) noexcept {
     Field(std::move(other)).swap(*this);
     return *this;
@@ -31,6 +35,7 @@ class Field {
     if (data_ != nullptr) Policy::release(data_);
   }
 
+  /// Exchanges the memory of two fields, without a copy.
   void swap(Field& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
@@ -43,11 +48,14 @@ class Field {
     *this = Field(size);
   }
 
+  /// Numbers that it holds.
   std::size_t size() const { return size_; }
+  /// Memory that it takes [bytes].
   std::size_t bytes() const { return size_ * sizeof(T); }
 
   /// Pointer for loop bodies; valid where the policy's loops run.
   T* data() { return data_; }
+  /// Where the numbers lie, in the policy's memory: for loop bodies only.
   const T* data() const { return data_; }
 
   /// Copies all of `host`, whose size must be that of the field.

@@ -12,6 +12,7 @@ namespace sphmbs::execution {
 /// smallest index is thrown again afterwards, whatever the number of threads.
 class FirstError {
  public:
+  /// Runs the action of iteration `index` and keeps what it throws, if it is the earliest.
   template <class Action>
   void guard(std::size_t index, Action&& action) {
     try {
@@ -25,6 +26,7 @@ class FirstError {
     }
   }
 
+  /// Throws what the earliest iteration that failed has thrown, if any.
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
   }

@@ -13,6 +13,7 @@ namespace sphmbs::execution {
 
 /// Memory of the policies that run on the host: aligned to cache lines, copies are plain copies.
 struct HostMemory {
+  ///@{ As `ExecutionPolicy` asks, for all policies of the host.
   static constexpr std::align_val_t alignment{64};
   static constexpr std::size_t chunk = 1024;
 
@@ -30,6 +31,7 @@ struct HostMemory {
                                static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
     return {.name = "the host", .memory = memory, .free = memory, .is_host = true};
   }
+  ///@}
 };
 
 }  // namespace sphmbs::execution

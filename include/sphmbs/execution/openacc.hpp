@@ -47,6 +47,7 @@ struct AccMemory {
 /// other in the device, so that structure-of-arrays views are read in one piece. Compile with GCC
 /// 12 and the flags of the CMake target sphmbs::openacc. Results are the same bits from run to run.
 struct OpenACC : DeviceMemory<detail::AccMemory> {
+  ///@{ As `ExecutionPolicy` asks.
   static constexpr std::string_view name = "openacc";
   /// GCC links OpenACC or OpenMP offload, not both: host loops of such programs have one thread.
   using Host = Serial;
@@ -68,6 +69,7 @@ struct OpenACC : DeviceMemory<detail::AccMemory> {
   }
 
   static int concurrency() { return detail::AccMemory::on_host() ? 1 : 1 << 16; }
+  ///@}
 
   /// @throws InvalidInput where there is none and ACC_DEVICE_TYPE does not ask for the host.
   static Device device() {

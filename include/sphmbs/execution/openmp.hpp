@@ -20,6 +20,7 @@ namespace sphmbs::execution {
 /// The threads of the host, by OpenMP; their number is OpenMP's (omp_set_num_threads). Results do
 /// not depend on it, to the last bit: no loop body reads what another one writes.
 struct OpenMP : HostMemory {
+  ///@{ As `ExecutionPolicy` asks.
   static constexpr std::string_view name = "openmp";
   using Host = OpenMP;
   template <class T>
@@ -39,6 +40,7 @@ struct OpenMP : HostMemory {
   }
 
   static int concurrency() { return omp_get_max_threads(); }
+  ///@}
 };
 
 static_assert(ExecutionPolicy<OpenMP>);

@@ -70,6 +70,7 @@ template <class F>
 /// with the flags of the CMake target sphmbs::omp_target. Results are the same bits from run to
 /// run.
 struct OpenMPTarget : DeviceMemory<detail::TargetMemory> {
+  ///@{ As `ExecutionPolicy` asks.
   static constexpr std::string_view name = "omp_target";
   using Host = OpenMP;
   template <class T>
@@ -93,6 +94,7 @@ struct OpenMPTarget : DeviceMemory<detail::TargetMemory> {
   static int concurrency() {
     return detail::TargetMemory::on_host() ? omp_get_max_threads() : 1 << 16;
   }
+  ///@}
 
   /// OpenMP tells neither names nor sizes of devices, NVIDIA's driver does.
   /// @throws InvalidInput where there is none and OMP_TARGET_OFFLOAD is not DISABLED.

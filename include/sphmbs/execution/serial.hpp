@@ -10,6 +10,7 @@ namespace sphmbs::execution {
 
 /// One thread of the host.
 struct Serial : HostMemory {
+  ///@{ As `ExecutionPolicy` asks.
   static constexpr std::string_view name = "serial";
   using Host = Serial;
   template <class T>
@@ -21,6 +22,7 @@ struct Serial : HostMemory {
   }
 
   static int concurrency() { return 1; }
+  ///@}
 };
 
 static_assert(ExecutionPolicy<Serial>);

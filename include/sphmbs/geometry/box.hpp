@@ -11,15 +11,17 @@ namespace sphmbs::geometry {
 /// Axis-parallel box between two corners [m].
 template <int Dim>
 struct Box {
-  static constexpr int dim = Dim;
-  Vec<Dim> lower;
-  Vec<Dim> upper;
+  static constexpr int dim = Dim;  ///< dimension of space
+  Vec<Dim> lower;                  ///< corner with the smallest coordinates [m]
+  Vec<Dim> upper;                  ///< corner with the largest coordinates [m]
 
+  /// Extent along an axis [m].
   double length(int axis) const { return upper[axis] - lower[axis]; }
 
   /// The box with every face moved outwards by `t` [m].
   Box grown(double t) const { return {lower - Vec<Dim>::all(t), upper + Vec<Dim>::all(t)}; }
 
+  /// Signed distance of x from the surface, exact [m].
   double distance(Vec<Dim> x) const {
     double outside2 = 0;
     double inside = -1e300;

@@ -11,11 +11,12 @@ namespace sphmbs::geometry {
 /// All points within `radius` of the segment from `from` to `to`: a bar with round ends [m].
 template <int Dim>
 struct Capsule {
-  static constexpr int dim = Dim;
-  Vec<Dim> from;
-  Vec<Dim> to;
-  double radius;
+  static constexpr int dim = Dim;  ///< dimension of space
+  Vec<Dim> from;                   ///< centre of one end [m]
+  Vec<Dim> to;                     ///< centre of the other end [m]
+  double radius;                   ///< [m]
 
+  /// Signed distance of x from the surface, exact [m].
   double distance(Vec<Dim> x) const {
     const Vec<Dim> along = to - from;
     const double length2 = norm2(along);

@@ -15,10 +15,10 @@ namespace sphmbs::geometry {
 /// length 0 and a half length that no distance exceeds.
 template <int Dim, class T>
 struct Periodicity {
-  Vec<Dim, T> lower;        // of the box [m]
-  Vec<Dim, T> length;       // of the period, 0 if there is none [m]
-  Vec<Dim, T> half;         // half the period, or the largest number [m]
-  Vec<Dim, T> length_rest;  // what rounding to T left of the period [m]
+  Vec<Dim, T> lower;        ///< of the box [m]
+  Vec<Dim, T> length;       ///< of the period, 0 if there is none [m]
+  Vec<Dim, T> half;         ///< half the period, or the largest number [m]
+  Vec<Dim, T> length_rest;  ///< what rounding to T left of the period [m]
 
   /// The separation to the nearest image, for separations shorter than 1.5 periods.
   template <class N>
@@ -66,10 +66,12 @@ enum class Escape { allow, error, remove };
 /// in- and outflow of sect. 3.1. Walls may lie outside the box along the other axes.
 template <int Dim>
 struct Domain {
-  Box<Dim> box;
+  Box<Dim> box;  ///< [m]; what lies outside is bounded by virtual particles, or is a periodic image
+  /// Along which axes the box repeats itself.
   std::array<bool, Dim> periodic{};
   Escape escape = Escape::allow;
 
+  /// The periodic axes, for loops.
   template <class T>
   Periodicity<Dim, T> periodicity() const {
     Periodicity<Dim, T> p;

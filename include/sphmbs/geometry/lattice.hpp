@@ -14,8 +14,8 @@ namespace sphmbs::geometry {
 /// A plain lattice, the paper's initial arrangement: the points origin + i spacing.
 template <int Dim>
 struct Lattice {
-  double spacing;        // [m]
-  Vec<Dim> origin = {};  // any lattice point [m]
+  double spacing;        ///< [m]
+  Vec<Dim> origin = {};  ///< any lattice point [m]
 
   /// Points on a surface are told from points beside it within this share of the spacing.
   static constexpr double tolerance = 1e-6;

@@ -15,13 +15,14 @@ namespace sphmbs::geometry {
 /// a ray crosses the outline an odd number of times.
 class Polygon {
  public:
-  static constexpr int dim = 2;
+  static constexpr int dim = 2;  ///< dimension of space
 
   /// @throws InvalidInput for fewer than three corners.
   explicit Polygon(std::vector<Vec<2>> corners) : corners_(std::move(corners)) {
     expects(corners_.size() >= 3, "polygon corners", corners_.size(), "at least 3");
   }
 
+  /// Signed distance of x from the outline, exact [m].
   double distance(Vec<2> x) const {
     bool inside = false;
     double nearest2 = 1e300;

@@ -26,39 +26,45 @@ concept KnowsNormal = Shape<S> && requires(const S shape, Vec<S::dim> x) {
 /// Points in a or in b.
 template <Shape A, Shape B>
 struct Union {
-  static constexpr int dim = A::dim;
-  A a;
-  B b;
+  static constexpr int dim = A::dim;  ///< dimension of space
+  A a;                                ///< the first solid
+  B b;                                ///< the second solid
+  /// Signed distance, or less [m].
   double distance(Vec<dim> x) const { return std::min(a.distance(x), b.distance(x)); }
 };
 
 /// Points in a and not in b.
 template <Shape A, Shape B>
 struct Difference {
-  static constexpr int dim = A::dim;
-  A a;
-  B b;
+  static constexpr int dim = A::dim;  ///< dimension of space
+  A a;                                ///< the first solid
+  B b;                                ///< the second solid
+  /// Signed distance, or less [m].
   double distance(Vec<dim> x) const { return std::max(a.distance(x), -b.distance(x)); }
 };
 
 /// Points not in a: the solid around a cavity.
 template <Shape A>
 struct Outside {
-  static constexpr int dim = A::dim;
-  A a;
+  static constexpr int dim = A::dim;  ///< dimension of space
+  A a;                                ///< the first solid
+  /// Signed distance, or less [m].
   double distance(Vec<dim> x) const { return -a.distance(x); }
   Vec<dim> normal(Vec<dim> x) const requires KnowsNormal<A> { return -1.0 * a.normal(x); }
 };
 
+/// All points that are not in a.
 template <Shape A>
 Outside<A> outside(A a) {
   return {a};
 }
 
+/// Points in a or in b.
 template <Shape A, Shape B>
 requires(A::dim == B::dim) Union<A, B>
 operator|(A a, B b) { return {a, b}; }
 
+/// Points in a and not in b.
 template <Shape A, Shape B>
 requires(A::dim == B::dim) Difference<A, B>
 operator-(A a, B b) { return {a, b}; }

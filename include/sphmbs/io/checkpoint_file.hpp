@@ -107,10 +107,11 @@ class CheckpointFileWriter {
 /// the file only claims to hold.
 class CheckpointFile {
  public:
+  /// A named part of the file.
   struct Section {
-    std::string type;
-    std::uint64_t bytes;
-    long begin;  // in the file
+    std::string type;     ///< of its numbers, as StateWriter names it
+    std::uint64_t bytes;  ///< of its data
+    long begin;           ///< place of its data in the file [bytes]
   };
 
   /// @throws RefusedCheckpoint with the path and what is wrong: "truncated", "checksum of section
@@ -126,7 +127,9 @@ class CheckpointFile {
     }
   }
 
+  /// Where the file is.
   const std::filesystem::path& path() const { return path_; }
+  /// All sections by name.
   const std::map<std::string, Section, std::less<>>& sections() const { return sections_; }
 
   /// @throws RefusedCheckpoint unless there is a section of this name and type.
@@ -146,6 +149,7 @@ class CheckpointFile {
       refuse("E401", "cannot be read again");
   }
 
+  /// @throws RefusedCheckpoint with the file's path, the id of a message and why.
   [[noreturn]] void refuse(std::string_view id, const std::string& why) const {
     throw RefusedCheckpoint("checkpoint " + path_.string() + ": " + why, id);
   }

@@ -49,6 +49,7 @@ class Checkpoints {
   explicit Checkpoints(std::filesystem::path folder, std::size_t keep = 2)
       : folder_(std::move(folder)), keep_(std::max<std::size_t>(keep, 2)) {}
 
+  /// Where the files are.
   const std::filesystem::path& folder() const { return folder_; }
 
   /// Writes the checkpoint of a step.
@@ -105,7 +106,7 @@ class Checkpoints {
     return identity;
   }
 
-  static constexpr const char* extension = ".ckpt";
+  static constexpr const char* extension = ".ckpt";  ///< of their names
 
  private:
   // Twenty digits, so that names sort as numbers.

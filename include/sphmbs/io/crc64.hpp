@@ -34,6 +34,7 @@ inline constexpr auto crc64_table = crc64_tables();
 /// but for one in 2^64.
 class Crc64 {
  public:
+  /// Goes on with these bytes.
   void add(std::span<const std::byte> bytes) {
     const auto& table = detail::crc64_table;
     const std::byte* at = bytes.data();
@@ -49,6 +50,7 @@ class Crc64 {
       state_ = (state_ >> 8) ^ table[0][(state_ ^ std::to_integer<std::uint64_t>(*at)) & 0xff];
   }
 
+  /// The checksum of all bytes so far.
   std::uint64_t value() const { return ~state_; }
 
  private:

@@ -31,7 +31,9 @@ class CsvWriter {
  public:
   /// Head of one column. Without unit, the brackets are left out.
   struct Column {
+    /// Heading of the column.
     std::string name{};
+    /// Written behind the name as `name[unit]`; may be empty.
     std::string unit{};
   };
 

@@ -73,6 +73,7 @@ concept Mapping = KeyedContainer<C> && requires {
 template <class Medium>
 class StateArchive {
  public:
+  /// Saves a value under a name, or restores it; see `Archive` for what a value can be.
   template <class T>
   void operator()(std::string_view name, T& value) {
     const Inside inside(path_, name);
@@ -194,8 +195,9 @@ class StateArchive {
 /// Saves a state into a file.
 class StateWriter : public StateArchive<StateWriter> {
  public:
-  static constexpr bool restores = false;
+  static constexpr bool restores = false;  ///< values are saved
 
+  /// @param file  to write to; it must outlive this.
   explicit StateWriter(CheckpointFileWriter& file) : file_(file) {}
 
  private:
@@ -222,8 +224,9 @@ class StateWriter : public StateArchive<StateWriter> {
 /// Restores a state from a file.
 class StateReader : public StateArchive<StateReader> {
  public:
-  static constexpr bool restores = true;
+  static constexpr bool restores = true;  ///< values are restored
 
+  /// @param file  to read from; it must outlive this.
   explicit StateReader(CheckpointFile& file) : file_(file) {}
 
   /// @throws RefusedCheckpoint naming a section that is missing or does not fit.

@@ -38,11 +38,11 @@ concept Stretched = DrawnCurve<P> &&
 
 /// Into how many pieces parts are divided so that they are drawn curved.
 struct Subdivision {
-  int curve = 8;    // of an element that is a line
-  int surface = 4;  // of an element that is a surface, along each side
+  int curve = 8;    ///< of an element that is a line
+  int surface = 4;  ///< of an element that is a surface, along each side
   // Of the outline of a body, which may have corners at equal shares of it: 1 to 6, 8, 10, 12, 15,
   // ... pieces meet at such places. Points in line are left out.
-  int outline = 120;
+  int outline = 120;  ///< points on the outline of a body
 };
 
 namespace detail {

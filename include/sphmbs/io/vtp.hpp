@@ -77,10 +77,12 @@ void write_vtp(const std::filesystem::path& path, const Positions& positions,
 
 /// Lines or polygons, each between points that it lists by number.
 struct Cells {
-  std::vector<std::int64_t> connectivity{};  // points of all cells, one cell after the other
-  std::vector<std::int64_t> offsets{};       // end of each cell in `connectivity`
+  std::vector<std::int64_t> connectivity{};  ///< points of all cells, one cell after the other
+  std::vector<std::int64_t> offsets{};       ///< end of each cell in `connectivity`
 
+  /// Number of cells.
   std::size_t size() const { return offsets.size(); }
+  /// Adds a cell through these points, which are counted from 0.
   void add(std::initializer_list<std::int64_t> points) {
     connectivity.insert(connectivity.end(), points);
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
@@ -91,6 +93,7 @@ struct Cells {
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("connectivity", connectivity);
@@ -100,13 +103,18 @@ struct Cells {
 
 /// Curves and surfaces, drawn as polylines and polygons, with quantities at their points.
 struct Mesh {
-  std::vector<double> points{};  // x, y, z of each point [m]
+  std::vector<double> points{};  ///< x, y, z of each point [m]
+  /// Polylines.
   Cells lines{};
+  /// Surfaces.
   Cells polygons{};
+  /// One value or vector for each point.
   std::vector<PointArray> arrays{};
 
+  /// Number of points.
   std::size_t size() const { return points.size() / 3; }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("points", points);

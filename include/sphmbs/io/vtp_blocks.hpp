@@ -33,6 +33,7 @@ struct PointArray {
                std::vector<std::uint8_t>>
       values{};
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     std::uint64_t type = values.index();

@@ -11,12 +11,14 @@ namespace sphmbs::kernels {
 /// misprint of 1/(120 h)) and 3/(359 pi h^3) in three, which is 0.28 % too large.
 template <int Dim>
 struct QuinticSpline {
-  static constexpr int dim = Dim;
-  static constexpr double support = 3;
+  static constexpr int dim = Dim;       ///< dimension of space
+  static constexpr double support = 3;  ///< support radius over h [-]
+  /// Makes the integral over space 1 [-].
   static constexpr double normalisation = Dim == 1   ? 1.0 / 120
                                           : Dim == 2 ? 7 / (478 * math::pi)
                                                      : 1 / (120 * math::pi);
 
+  /// W without normalisation as a function of R = r / h, see `Kernel`.
   template <class N>
   static SPHMBS_INLINE N shape(N R) {
     const N a = math::max(N(3) - R, N(0));
@@ -25,6 +27,7 @@ struct QuinticSpline {
     return math::power<5>(a) - N(6) * math::power<5>(b) + N(15) * math::power<5>(c);
   }
 
+  /// Derivative of `shape` by R, never positive.
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N a = math::max(N(3) - R, N(0));

@@ -11,12 +11,14 @@ namespace sphmbs::kernels {
 /// Twice continuously differentiable.
 template <int Dim>
 struct WendlandC2 {
-  static constexpr int dim = Dim;
-  static constexpr double support = 2;
+  static constexpr int dim = Dim;       ///< dimension of space
+  static constexpr double support = 2;  ///< support radius over h [-]
+  /// Makes the integral over space 1 [-].
   static constexpr double normalisation = Dim == 1   ? 5.0 / 8
                                           : Dim == 2 ? 7 / (4 * math::pi)
                                                      : 21 / (16 * math::pi);
 
+  /// W without normalisation as a function of R = r / h, see `Kernel`.
   template <class N>
   static SPHMBS_INLINE N shape(N R) {
     const N q = N(0.5) * R;
@@ -27,6 +29,7 @@ struct WendlandC2 {
       return math::power<4>(a) * (N(1) + N(4) * q);
   }
 
+  /// Derivative of `shape` by R, never positive.
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N q = N(0.5) * R;
@@ -41,12 +44,14 @@ struct WendlandC2 {
 /// Four times continuously differentiable.
 template <int Dim>
 struct WendlandC4 {
-  static constexpr int dim = Dim;
-  static constexpr double support = 2;
+  static constexpr int dim = Dim;       ///< dimension of space
+  static constexpr double support = 2;  ///< support radius over h [-]
+  /// Makes the integral over space 1 [-].
   static constexpr double normalisation = Dim == 1   ? 3.0 / 4
                                           : Dim == 2 ? 9 / (4 * math::pi)
                                                      : 495 / (256 * math::pi);
 
+  /// W without normalisation as a function of R = r / h, see `Kernel`.
   template <class N>
   static SPHMBS_INLINE N shape(N R) {
     const N q = N(0.5) * R;
@@ -57,6 +62,7 @@ struct WendlandC4 {
       return math::power<6>(a) * (N(1) + q * (N(6) + N(static_cast<Scalar<N>>(35.0 / 3)) * q));
   }
 
+  /// Derivative of `shape` by R, never positive.
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N q = N(0.5) * R;
@@ -71,12 +77,14 @@ struct WendlandC4 {
 /// Six times continuously differentiable.
 template <int Dim>
 struct WendlandC6 {
-  static constexpr int dim = Dim;
-  static constexpr double support = 2;
+  static constexpr int dim = Dim;       ///< dimension of space
+  static constexpr double support = 2;  ///< support radius over h [-]
+  /// Makes the integral over space 1 [-].
   static constexpr double normalisation = Dim == 1   ? 55.0 / 64
                                           : Dim == 2 ? 78 / (28 * math::pi)
                                                      : 1365 / (512 * math::pi);
 
+  /// W without normalisation as a function of R = r / h, see `Kernel`.
   template <class N>
   static SPHMBS_INLINE N shape(N R) {
     const N q = N(0.5) * R;
@@ -87,6 +95,7 @@ struct WendlandC6 {
       return math::power<8>(a) * (N(1) + q * (N(8) + q * (N(25) + N(32) * q)));
   }
 
+  /// Derivative of `shape` by R, never positive.
   template <class N>
   static SPHMBS_INLINE N slope(N R) {
     const N q = N(0.5) * R;

@@ -16,8 +16,13 @@ namespace sphmbs::mbs {
 
 /// Counts since the start.
 struct DynamicsStatistics {
-  long steps = 0, iterations = 0, factorisations = 0, halvings = 0, rejected = 0;
+  long steps = 0;           ///< accepted
+  long iterations = 0;      ///< of Newton's method
+  long factorisations = 0;  ///< of the iteration matrix
+  long halvings = 0;        ///< of steps in which Newton's method failed
+  long rejected = 0;        ///< steps whose error estimate was too large
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("steps", steps);
@@ -59,8 +64,8 @@ template <class Structure, solvers::LinearSolver Solver = solvers::SparseLU,
           class Policy = execution::Default>
 class Dynamics {
  public:
-  static constexpr int dim = Structure::dim;
-  using EquationsType = Equations<Structure, Policy>;
+  static constexpr int dim = Structure::dim;           ///< dimension of space
+  using EquationsType = Equations<Structure, Policy>;  ///< the equations of motion
 
   /// Makes the initial state consistent. Keeps a reference to the structure.
   /// @throws InvalidInput and NumericalFailure as ConsistentStart::run does.
@@ -84,12 +89,15 @@ class Dynamics {
     powers_ = powers_at(equations_, state_);
   }
 
-  double time() const { return state_.t; }             // [s]
-  const State& state() const { return state_; }        // q, v, vdot, lambda
-  const StartReport& start() const { return start_; }  // how the initial state was made
-  double size() const { return size_; }                // largest extent at t = 0 [m]
+  double time() const { return state_.t; }             ///< [s]
+  const State& state() const { return state_; }        ///< q, v, vdot, lambda
+  const StartReport& start() const { return start_; }  ///< how the initial state was made
+  double size() const { return size_; }                ///< largest extent at t = 0 [m]
+  /// The bodies, joints and forces.
   const Structure& structure() const { return structure_; }
+  /// The equations of motion.
   EquationsType& equations() { return equations_; }
+  /// Counts since the start.
   DynamicsStatistics statistics() const {
     DynamicsStatistics s = statistics_;
     s.factorisations = factors_.count();
@@ -133,7 +141,9 @@ class Dynamics {
 
   /// @name For integrators
   /// @{
+  /// The iteration matrix and its factors.
   Factors<Solver>& factors() { return factors_; }
+  /// Counts, to be raised.
   DynamicsStatistics& counts() { return statistics_; }
   /// The auxiliary acceleration of generalized-alpha for a step of length h [per s^2].
   VectorXd algorithmic_acceleration(double h) const {
@@ -141,6 +151,7 @@ class Dynamics {
   }
   /// Step that an error estimate suggests [s]; infinite before the first one.
   double suggested_step() const { return suggested_step_; }
+  /// Notes the step that an error estimate suggests [s].
   /// @param worst  coordinate whose error asks for it, -1 for none
   void suggest_step(double dt, int worst = -1) {
     suggested_step_ = dt;
@@ -171,15 +182,20 @@ class Dynamics {
 
   /// What a step changes, for steps that are undone.
   struct Memory {
-    State state;
-    VectorXd algorithmic;
-    Powers powers;
-    double last_step, suggested_step, dissipated, work;
-    int worst;
+    State state;            ///< coordinates, rates, multipliers
+    VectorXd algorithmic;   ///< auxiliary acceleration of generalized-alpha
+    Powers powers;          ///< at the state
+    double last_step;       ///< [s]
+    double suggested_step;  ///< [s]
+    double dissipated;      ///< since time 0 [J]
+    double work;            ///< since time 0 [J]
+    int worst;              ///< coordinate that the suggested step is due to
   };
+  /// What `recall` brings back.
   Memory memory() const {
     return {state_, algorithmic_, powers_, last_step_, suggested_step_, dissipated_, work_, worst_};
   }
+  /// Undoes everything since `memory`.
   void recall(const Memory& m) {
     state_ = m.state;
     algorithmic_ = m.algorithmic;

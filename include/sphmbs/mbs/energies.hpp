@@ -8,14 +8,16 @@ namespace sphmbs::mbs {
 /// Energies of a structure, and what went in and out since t = 0; total() is constant but for the
 /// error of the integrator.
 struct Energies {
-  double kinetic = 0;     // 1/2 v.M v [J]
-  double strain = 0;      // of flexible elements [J]
-  double potential = 0;   // of gravity, zero at the origin [J]
-  double springs = 0;     // potential of forces and end stops that have one [J]
-  double dissipated = 0;  // by dampers, friction and internal damping since t = 0 [J]
-  double work = 0;        // done by loads, drives and forces from outside since t = 0 [J]
+  double kinetic = 0;     ///< 1/2 v.M v [J]
+  double strain = 0;      ///< of flexible elements [J]
+  double potential = 0;   ///< of gravity, zero at the origin [J]
+  double springs = 0;     ///< potential of forces and end stops that have one [J]
+  double dissipated = 0;  ///< by dampers, friction and internal damping since t = 0 [J]
+  double work = 0;        ///< done by loads, drives and forces from outside since t = 0 [J]
 
+  /// Kinetic and stored energy [J].
   double mechanical() const { return kinetic + strain + potential + springs; }
+  /// What is constant in time but for errors of the integrator [J].
   double total() const { return mechanical() + dissipated - work; }
 };
 
@@ -53,10 +55,11 @@ double potential_of_forces(System& equations, const State& state) {
 /// Powers at a state: of everything that damps, and of what drives, the outside and forces do that
 /// are not conservative.
 struct Powers {
-  double dissipated = 0;  // [W]
-  double work = 0;        // [W]
+  double dissipated = 0;  ///< [W]
+  double work = 0;        ///< [W]
 };
 
+/// Powers of damping and loads at a state [W].
 template <class System>
 Powers powers_at(System& equations, const State& state) {
   Powers p;

@@ -4,8 +4,8 @@
 #include <string>
 
 #include <sphmbs/core/archive.hpp>
-#include <sphmbs/execution/first_error.hpp>
 #include <sphmbs/execution/default.hpp>
+#include <sphmbs/execution/first_error.hpp>
 #include <sphmbs/execution/serial.hpp>
 #include <sphmbs/mbs/layout.hpp>
 #include <sphmbs/mbs/mass.hpp>
@@ -23,7 +23,7 @@ namespace sphmbs::mbs {
 template <class Structure, class Policy = execution::Default>
 class Equations {
  public:
-  static constexpr int dim = Structure::dim;
+  static constexpr int dim = Structure::dim;  ///< dimension of space
 
   /// Keeps a reference to the structure, which must be complete.
   /// @throws as Structure::check does.
@@ -34,16 +34,24 @@ class Equations {
     lay_out_again();
   }
 
+  /// Number of coordinates q.
   int coordinates() const { return layout_.coordinates; }
+  /// Number of conditions Phi, redundant ones included.
   int conditions() const { return layout_.conditions; }
+  /// Coordinates and multipliers together.
   int unknowns() const { return layout_.unknowns(); }
+  /// Which component has which coordinates and conditions.
   const Layout& layout() const { return layout_; }
+  /// What each unknown is.
   const std::vector<Role>& roles() const { return layout_.roles; }
+  /// M, constant.
   const SparseMatrix& mass() const { return mass_.M; }
+  /// Coordinates of unit translations, one column for each axis.
   const Matrix<Dynamic, dim>& translation() const { return mass_.translation; }
 
   /// Generalized force from outside, such as that of a gas [N per coordinate].
   VectorXd& external_force() { return external_; }
+  /// Force from outside, such as that of gas [N per coordinate].
   const VectorXd& external_force() const { return external_; }
   /// Magnitude of the gravity that acts [m/s^2].
   double weight() const { return std::abs(load_factor_) * structure_.gravity.norm(); }
@@ -54,6 +62,7 @@ class Equations {
   void remove(const std::vector<int>& conditions) {
     for (const int k : conditions) removed_[as_size(k)] = 1;
   }
+  /// Whether a redundant condition was taken out.
   bool removed(int condition) const { return removed_[as_size(condition)] != 0; }
 
   /// Moves joints along with the coordinates. Where one touches other coordinates than before, the
@@ -66,6 +75,7 @@ class Equations {
     });
     if (changed) lay_out_again();
   }
+  /// Changes when the pattern of the matrix does.
   int topology() const { return topology_; }
 
   /// Computes all contributions at a state; with weights, those of the matrix too.
@@ -181,7 +191,7 @@ class Equations {
     if constexpr (A::restores) lay_out_again();
   }
 
-  /// Calls visit.template operator()<T>(component, slot, local state) for each one, in order.
+  /// Calls `visit.template operator()<T>(component, slot, local state)` for each one, in order.
   template <class Visit>
   void for_each_component(const State& state, Visit&& visit) {
     std::size_t number = 0;
@@ -196,6 +206,7 @@ class Equations {
 
   /// What messages call the component behind an unknown.
   std::string name_of(int unknown) const { return name_of_unknown(structure_, layout_, unknown); }
+  /// What messages call a condition.
   std::string name_of_condition(int condition) const { return name_of(coordinates() + condition); }
 
  private:

@@ -69,8 +69,11 @@ class Factors {
     }
   }
 
+  /// The next solution factorises anew.
   void forget() { regular_ = false; }
+  /// How often the matrix was factorised.
   long count() const { return count_; }
+  /// The matrix as it was factorised last, rows and columns scaled.
   const SparseMatrix& scaled_matrix() const { return A_; }
 
  private:

@@ -24,10 +24,10 @@ namespace sphmbs::mbs {
 /// changes, a_n, which belongs to a time ahead of t_n by a share of the step, is moved there:
 /// vdot_n + (h/h_old) (a_n - vdot_n).
 struct GeneralizedAlpha {
-  double spectral_radius = 0.8;  // at infinite frequency: 1 damps nothing, 0 at once [-]
-  Newton newton = {};
-  bool project = true;                  // velocities and accelerations onto the conditions
-  std::optional<double> accuracy = {};  // of a coordinate in a step [m]; without it, fixed steps
+  double spectral_radius = 0.8;         ///< at infinite frequency: 1 damps nothing, 0 at once [-]
+  Newton newton = {};                   ///< how each step is solved
+  bool project = true;                  ///< velocities and accelerations onto the conditions
+  std::optional<double> accuracy = {};  ///< of a coordinate in a step [m]; without it, fixed steps
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {
@@ -55,10 +55,15 @@ struct GeneralizedAlpha {
     return bound;
   }
 
+  /// The constants of the method.
   struct Coefficients {
-    double alpha_m, alpha_f, gamma, beta;
+    double alpha_m;  ///< weight of the old auxiliary acceleration [-]
+    double alpha_f;  ///< weight of the old acceleration [-]
+    double gamma;    ///< weight of the new one in the velocity [-]
+    double beta;     ///< weight of the new one in the position [-]
   };
 
+  /// From the spectral radius: second order, least loss at low frequencies.
   Coefficients coefficients() const {
     const double rho = spectral_radius;
     const double alpha_m = (2 * rho - 1) / (rho + 1), alpha_f = rho / (rho + 1);
@@ -68,9 +73,10 @@ struct GeneralizedAlpha {
 
   /// Where a step would lead, which Dynamics::accept makes the state.
   struct Attempt {
-    State state;
-    VectorXd before, algorithmic;  // a_n, a_{n+1}
-    NewtonCourse course;
+    State state;           ///< at the end of the step
+    VectorXd before;       ///< a_n
+    VectorXd algorithmic;  ///< a_{n+1}
+    NewtonCourse course;   ///< how it was found
   };
 
   /// Tries a step of length h [s] and leaves the system's state as it is. Factors of an earlier

@@ -13,17 +13,22 @@ namespace sphmbs::mbs {
 /// Topology of the assembled equations: which unknown of [q, lambda] belongs to what, where each
 /// component computes its contribution, and which contributions add up to which number.
 struct Layout {
-  int coordinates = 0, conditions = 0;
-  std::vector<Role> roles;  // of each unknown
-  std::vector<Slot> slots;  // of all components, type by type, in the order of the adds
-  Index index;              // coordinates of all slots, one list after the other
-  std::size_t vector_size = 0, matrix_size = 0;           // numbers that components compute
-  std::vector<std::size_t> vector_begin, vector_sources;  // what each unknown's residual gathers
-  SparsePattern pattern;                                  // what each matrix entry gathers
-  SparseMatrix zeros;                                     // the matrix, with all entries zero
-  std::vector<double> mass;                               // of M in each matrix entry
+  int coordinates = 0;          ///< how many
+  int conditions = 0;           ///< how many
+  std::vector<Role> roles;      ///< of each unknown
+  std::vector<Slot> slots;      ///< of all components, type by type, in the order of the adds
+  Index index;                  ///< coordinates of all slots, one list after the other
+  std::size_t vector_size = 0;  ///< numbers in the residuals of all components
+  std::size_t matrix_size = 0;  ///< numbers in their matrix blocks
+  std::vector<std::size_t> vector_begin;    ///< where the sources of each unknown's residual begin
+  std::vector<std::size_t> vector_sources;  ///< numbers of residuals that it gathers
+  SparsePattern pattern;                    ///< what each matrix entry gathers
+  SparseMatrix zeros;                       ///< the matrix, with all entries zero
+  std::vector<double> mass;                 ///< of M in each matrix entry
 
+  /// Coordinates and multipliers.
   int unknowns() const { return coordinates + conditions; }
+  /// The list of a component's coordinates.
   const int* own(const Slot& slot) const { return index.data() + slot.index; }
 };
 

@@ -12,12 +12,13 @@ namespace sphmbs::mbs {
 /// `index` lists. Joints, loads and sensors know nothing else about the parts they act on.
 template <int Dim>
 struct Marker {
-  Index index = {};                                             // columns of N
-  Matrix<Dim, Dynamic> N = Matrix<Dim, Dynamic>::Zero(Dim, 0);  // [x per coordinate]
-  Vector<Dim> x0 = Vector<Dim>::Zero();                         // [m], or [-] of a direction
+  Index index = {};                                             ///< columns of N
+  Matrix<Dim, Dynamic> N = Matrix<Dim, Dynamic>::Zero(Dim, 0);  ///< [x per coordinate]
+  Vector<Dim> x0 = Vector<Dim>::Zero();                         ///< [m], or [-] of a direction
 
   /// The quantity for all coordinates q of the structure; with v, without x0, its rate.
   Vector<Dim> at(const VectorXd& q) const { return x0 + rate(q); }
+  /// Velocity [m/s], or rate of a vector, at rates v of the structure.
   Vector<Dim> rate(const VectorXd& v) const {
     Vector<Dim> x = Vector<Dim>::Zero();
     for (std::size_t k = 0; k < index.size(); ++k) x += N.col(static_cast<int>(k)) * v[index[k]];
@@ -67,11 +68,13 @@ Marker<Dim> combined(const Marker<Dim>& a, double s, const Marker<Dim>& b) {
   return sum;
 }
 
+/// Point or vector a less b, on the coordinates of both.
 template <int Dim>
 Marker<Dim> operator-(const Marker<Dim>& a, const Marker<Dim>& b) {
   return combined(a, -1.0, b);
 }
 
+/// Point or vector a plus b, on the coordinates of both.
 template <int Dim>
 Marker<Dim> operator+(const Marker<Dim>& a, const Marker<Dim>& b) {
   return combined(a, 1.0, b);

@@ -9,9 +9,9 @@ namespace sphmbs::mbs {
 /// Constant mass matrix of a structure, and its unit translations: M T g is the force of gravity.
 template <int Dim>
 struct Mass {
-  SparseMatrix M;
-  Matrix<Dynamic, Dim> translation;  // T: column k moves every point by one along axis k
-  Matrix<Dynamic, Dim> weight;       // M T
+  SparseMatrix M;                    ///< mass matrix of the structure
+  Matrix<Dynamic, Dim> translation;  ///< T: column k moves every point by one along axis k
+  Matrix<Dynamic, Dim> weight;       ///< M T
 };
 
 /// Sums the mass matrices of all parts; entries that are zero are not stored.

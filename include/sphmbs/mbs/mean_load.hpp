@@ -21,15 +21,17 @@ namespace sphmbs::mbs {
 /// that Newton's method has to halve receives it to second order only.
 class MeanLoad {
  public:
+  /// The load at the end of a step, from its mean.
   struct End {
-    VectorXd filtered;  // b_{n+1}
-    VectorXd load;      // Q_{n+1}
+    VectorXd filtered;  ///< b_{n+1}
+    VectorXd load;      ///< Q_{n+1}
   };
 
   MeanLoad() = default;
   /// @param start  the load at the beginning, when accelerations belong to it
   explicit MeanLoad(const VectorXd& start) : last_{start, start} {}
 
+  /// The load at the end of a step of length h [s] that makes the integrator's mean `mean`.
   End at_end(const GeneralizedAlpha& integrator, const VectorXd& mean, double h) const {
     const auto [alpha_m, alpha_f, gamma, beta] = integrator.coefficients();
     const VectorXd b = last_.load + filter_stretch(h, last_h_) * (last_.filtered - last_.load);
@@ -45,6 +47,7 @@ class MeanLoad {
     last_h_ = h;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("filtered", last_.filtered);

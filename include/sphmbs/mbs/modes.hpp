@@ -11,8 +11,8 @@ namespace sphmbs::mbs {
 
 /// Small vibrations about a state.
 struct Modes {
-  VectorXd squares;  // omega^2, ascending; near zero: free motion; negative: unstable [rad^2/s^2]
-  MatrixXd shapes;   // one column a mode, over all coordinates, of unit modal mass
+  VectorXd squares;  ///< omega^2, ascending; near zero: free motion; negative: unstable [rad^2/s^2]
+  MatrixXd shapes;   ///< one column a mode, over all coordinates, of unit modal mass
 
   /// omega of the k-th mode; 0 where its square is not positive [rad/s]
   double frequency(int k) const { return std::sqrt(std::max(0.0, squares[k])); }

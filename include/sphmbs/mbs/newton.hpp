@@ -16,20 +16,21 @@ namespace sphmbs::mbs {
 
 /// When Newton's method computes and factorises its matrix anew.
 enum class Refactor {
-  every_iteration,  // full Newton
-  every_step,       // once, at the first iteration of a step
-  when_slow         // when convergence with the old factors, of any earlier step, is slow
+  every_iteration,  ///< full Newton
+  every_step,       ///< once, at the first iteration of a step
+  when_slow         ///< when convergence with the old factors, of any earlier step, is slow
 };
 
 /// Newton's method for the equations of one step.
 struct Newton {
-  double tolerance =
-      1e-10;  // on the estimated error of a coordinate, over the structure's size [-]
-  double acceleration_tolerance = 1e-6;  // on that of an acceleration, over the largest or gravity
-  int max_iterations = 20;
-  Refactor refactor = Refactor::when_slow;
-  double slow_rate = 0.25;  // ratio of successive corrections that asks for new factors [-]
-  int max_halvings = 10;    // of the step, where Newton's method fails
+  /// Bound on the estimated error of a coordinate, over the structure's size [-].
+  double tolerance = 1e-10;
+  /// Bound on that of an acceleration, over the largest or gravity.
+  double acceleration_tolerance = 1e-6;
+  int max_iterations = 20;                  ///< after which the method has failed
+  Refactor refactor = Refactor::when_slow;  ///< when the matrix is factorised
+  double slow_rate = 0.25;  ///< ratio of successive corrections that asks for new factors [-]
+  int max_halvings = 10;    ///< of the step, where Newton's method fails
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {
@@ -45,17 +46,18 @@ struct Newton {
 
 /// What one iteration did.
 struct NewtonIteration {
-  double correction = 0;  // largest |dq| over the structure's size
-  double residual = 0;    // largest |r| or |Phi|
-  int worst = 0;          // unknown with the largest residual
-  bool refactored = false;
+  double correction = 0;    ///< largest |dq| over the structure's size
+  double residual = 0;      ///< largest |r| or |Phi|
+  int worst = 0;            ///< unknown with the largest residual
+  bool refactored = false;  ///< whether the matrix was factorised in it
 };
 
 /// Course of Newton's method in one step, for messages and statistics.
 struct NewtonCourse {
-  std::vector<NewtonIteration> iterations;
-  bool converged = false, singular = false;
-  std::string failure = {};  // what a component complained of, if that is why it ended
+  std::vector<NewtonIteration> iterations;  ///< in order
+  bool converged = false;                   ///< whether corrections fell below the tolerance
+  bool singular = false;                    ///< whether the matrix was
+  std::string failure = {};  ///< what a component complained of, if that is why it ended
 
   /// Ratio of the last two corrections; 1 where there are not two.
   double rate() const {

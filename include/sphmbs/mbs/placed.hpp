@@ -13,18 +13,19 @@ namespace sphmbs::mbs {
 
 /// Where the coordinates of a node begin in q, and how many there are.
 struct Node {
-  int offset;
-  int size;
+  int offset;  ///< of its first coordinate among those of the structure
+  int size;    ///< number of its coordinates
 };
 
 /// A part in its place in a structure: which coordinates are its own. It gives the markers that
 /// joints, loads and sensors are made of.
 template <Part P>
 struct Placed {
-  P part;
-  std::array<Node, P::nodes> nodes;
-  int number;  // among the parts of this type, from 0
+  P part;                            ///< a copy of what was added
+  std::array<Node, P::nodes> nodes;  ///< that carry its coordinates
+  int number;                        ///< among the parts of this type, from 0
 
+  /// Its coordinates, node by node.
   Index index() const {
     Index all;
     all.reserve(P::dofs);
@@ -64,8 +65,10 @@ struct Placed {
   }
   { return marker(part.shape_twist(X)); }
 
+  /// Point at the first end, where the part has one.
   Marker<P::dim> start() const requires requires(const P p) { p.start(); }
   { return point(part.start()); }
+  /// Point at the second end, where the part has one.
   Marker<P::dim> end() const requires requires(const P p) { p.end(); }
   { return point(part.end()); }
 

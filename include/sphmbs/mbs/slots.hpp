@@ -10,17 +10,22 @@ namespace sphmbs::mbs {
 /// n + m numbers, and matrix blocks A (n x n), B = Phi_q (m x n) and, with friction, L (n x m);
 /// C (n x n) is scratch.
 struct Slot {
-  int n = 0, m = 0;
-  int first_condition = 0;  // of its conditions among all
-  std::size_t index = 0;    // of its list of n coordinates
-  std::size_t vector = 0;   // of its residual
-  std::size_t matrix = 0;   // of its blocks A, B, L
-  bool has_A = true, has_L = false, has_C = false;
+  int n = 0;                ///< coordinates
+  int m = 0;                ///< conditions
+  int first_condition = 0;  ///< of its conditions among all
+  std::size_t index = 0;    ///< of its list of n coordinates
+  std::size_t vector = 0;   ///< of its residual
+  std::size_t matrix = 0;   ///< of its blocks A, B, L
+  bool has_A = true;        ///< whether there is a block A
+  bool has_L = false;       ///< whether there is a block L
+  bool has_C = false;       ///< whether there is a block C
 
+  ///@{ Where blocks begin, and the last one ends, among all numbers.
   std::size_t at_B() const { return matrix + (has_A ? static_cast<std::size_t>(n * n) : 0); }
   std::size_t at_L() const { return at_B() + static_cast<std::size_t>(n * m); }
   std::size_t at_C() const { return at_L() + (has_L ? static_cast<std::size_t>(n * m) : 0); }
   std::size_t matrix_end() const { return at_C() + (has_C ? static_cast<std::size_t>(n * n) : 0); }
+  ///@}
 };
 
 /// Size of the contribution of a component.
@@ -42,21 +47,27 @@ Slot slot_of(const Stored& component) {
 
 /// Everything a component may look at while it computes its contribution.
 struct Local {
-  Eigen::Map<VectorXd> q, v, lambda;  // its own coordinates, rates and multipliers
-  double t;                           // [s]
-  double load_factor;                 // share of the loads that acts
+  Eigen::Map<VectorXd> q;       ///< its own coordinates
+  Eigen::Map<VectorXd> v;       ///< their rates
+  Eigen::Map<VectorXd> lambda;  ///< its own multipliers
+  double t;                     ///< [s]
+  double load_factor;           ///< share of the loads that acts
 };
 
 /// What a component contributes: r to the left of eq. (25), Phi, and where asked A = dr/dq + w
 /// dr/dv with the part of Phi_q^T lambda, B = Phi_q, L = dr/dlambda beyond B^T.
 struct Contribution {
-  Eigen::Map<VectorXd> r, phi;
-  Eigen::Map<MatrixXd> A, B, L;
-  Eigen::Map<MatrixXd> C;  // scratch, n x n
-  double w;                // dv/dq of the integrator [1/s]
-  bool tangent;            // whether A and L are asked for; B always is
+  Eigen::Map<VectorXd> r;    ///< forces, length n
+  Eigen::Map<VectorXd> phi;  ///< conditions, length m
+  Eigen::Map<MatrixXd> A;    ///< n x n; empty where nothing is asked for
+  Eigen::Map<MatrixXd> B;    ///< m x n
+  Eigen::Map<MatrixXd> L;    ///< n x m; empty without friction
+  Eigen::Map<MatrixXd> C;    ///< scratch, n x n
+  double w;                  ///< dv/dq of the integrator [1/s]
+  bool tangent;              ///< whether A and L are asked for; B always is
 };
 
+/// What an element adds.
 template <Element E>
 void contribute(const Placed<E>& placed, const Local& x, Contribution& out) {
   const Vector<E::dofs> q = x.q, v = x.v;
@@ -64,6 +75,7 @@ void contribute(const Placed<E>& placed, const Local& x, Contribution& out) {
   if (out.tangent) out.A = placed.part.tangent(q, v, out.w);
 }
 
+/// What a rigid body adds.
 template <Body T>
 void contribute(const Placed<T>& placed, const Local& x, Contribution& out) {
   const Vector<T::dofs> q = x.q;
@@ -74,6 +86,7 @@ void contribute(const Placed<T>& placed, const Local& x, Contribution& out) {
   if (out.tangent) out.A = placed.part.rigidity_hessian(lambda);
 }
 
+/// What a joint adds.
 template <Constraint T>
 void contribute(const T& joint, const Local& x, Contribution& out) {
   out.phi.setZero();

@@ -13,7 +13,7 @@
 
 namespace sphmbs::mbs {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;  ///< columns compressed
 
 /// Which numbers, computed piece by piece into one array, add up to which entry of a sparse matrix.
 /// Every entry gathers its own sources in ascending order: no atomics, and the same bits for any

@@ -24,17 +24,17 @@ enum class Redundant { remove, refuse };
 /// projected away is meant to be rounding: the smallest change in kinetic energy moves light,
 /// flexible parts most, and a whole velocity that is missing would whip them.
 struct StartOptions {
-  double position_tolerance = 1e-6;  // on Phi, over the structure's size [-]
-  double velocity_tolerance = 1e-3;  // on dPhi/dt, over the largest rate or the size a second [-]
-  Redundant redundant = Redundant::remove;
+  double position_tolerance = 1e-6;  ///< on Phi, over the structure's size [-]
+  double velocity_tolerance = 1e-3;  ///< on dPhi/dt, over the largest rate or the size a second [-]
+  Redundant redundant = Redundant::remove;  ///< what to do about conditions that follow from others
 };
 
 /// What was done to make the initial state consistent.
 struct StartReport {
-  double position_correction = 0;       // largest change of a coordinate
-  double velocity_correction = 0;       // largest change of a rate
-  std::vector<int> redundant = {};      // conditions removed
-  std::vector<std::string> notes = {};  // the same for people, a sentence each
+  double position_correction = 0;       ///< largest change of a coordinate
+  double velocity_correction = 0;       ///< largest change of a rate
+  std::vector<int> redundant = {};      ///< conditions removed
+  std::vector<std::string> notes = {};  ///< the same for people, a sentence each
 };
 
 /// Makes a state consistent: Phi = 0, Phi_q v + Phi_t = 0, and accelerations and multipliers from
@@ -43,6 +43,7 @@ struct StartReport {
 template <class System>
 class ConsistentStart {
  public:
+  /// @param size  of the structure [m], to which errors are compared.
   ConsistentStart(System& equations, State& state, double size, const StartOptions& options)
       : equations_(equations), state_(state), size_(size), options_(options) {}
 

@@ -13,12 +13,13 @@ namespace sphmbs::mbs {
 
 /// How loads are raised in statics.
 struct StaticsOptions {
-  double first_step = 1;  // share of the loads that is tried first [-]
-  double smallest_step = 1e-6;
-  int relaxations = 60;  // at most, a load step, where Newton's method fails
-  double t = 0;          // time at which loads and drives are taken [s]
+  double first_step = 1;        ///< share of the loads that is tried first [-]
+  double smallest_step = 1e-6;  ///< share of the loads below which it is given up [-]
+  int relaxations = 60;         ///< at most, a load step, where Newton's method fails
+  double t = 0;                 ///< time at which loads and drives are taken [s]
+  /// How each load step is solved.
   Newton newton = {.max_iterations = 30, .refactor = Refactor::every_iteration};
-  StartOptions start = {};
+  StartOptions start = {};  ///< how conditions are met before loads are raised
 
   /// @throws InvalidInput for numbers out of range.
   void check() const {
@@ -33,8 +34,11 @@ struct StaticsOptions {
 
 /// Equilibrium: a state with v = vdot = 0, and how it was found.
 struct Equilibrium {
-  State state;
-  int load_steps = 0, iterations = 0, halvings = 0, relaxations = 0;
+  State state;          ///< at rest, with the multipliers of the reactions
+  int load_steps = 0;   ///< taken
+  int iterations = 0;   ///< of Newton's method
+  int halvings = 0;     ///< of load steps that failed
+  int relaxations = 0;  ///< steps of pseudo-transient continuation
 };
 
 namespace detail {

@@ -24,11 +24,12 @@ concept Component = Element<T> || Body<T> || Constraint<T> || Force<T>;
 /// How a structure keeps a component: parts with their place, the others as they are.
 template <class T>
 struct StoredAs {
-  using type = T;
+  using type = T;  ///< what the structure keeps
 };
+/// Parts are kept with their nodes.
 template <Part P>
 struct StoredAs<P> {
-  using type = Placed<P>;
+  using type = Placed<P>;  ///< what the structure keeps
 };
 
 /// The first part among Types decides on the dimension.
@@ -43,6 +44,7 @@ constexpr int dimension_of() {
   return dim;
 }
 
+/// Whether a component lives in space of this dimension.
 template <class T>
 constexpr bool fits(int dim) {
   if constexpr (Part<T>)
@@ -59,11 +61,11 @@ constexpr bool fits(int dim) {
 template <Component... Types>
 class Structure {
  public:
-  static constexpr int dim = dimension_of<Types...>();
+  static constexpr int dim = dimension_of<Types...>();  ///< dimension of space
   static_assert(dim == 2 || dim == 3, "a structure has at least one part");
   static_assert((fits<Types>(dim) && ...), "all parts of a structure have the same dimension");
 
-  Vector<dim> gravity = Vector<dim>::Zero();  // [m/s^2]
+  Vector<dim> gravity = Vector<dim>::Zero();  ///< [m/s^2]
 
   /// New coordinates and their rates.
   /// @throws InvalidInput unless both are finite and of the same size.
@@ -79,6 +81,7 @@ class Structure {
     nodes_.push_back(node);
     return node;
   }
+  /// A node at rest.
   Node add_node(const VectorXd& q) { return add_node(q, VectorXd::Zero(q.size())); }
 
   /// A part between existing nodes.
@@ -137,17 +140,20 @@ class Structure {
     static_assert((std::is_same_v<T, Types> || ...), "add T to the types of Structure<...>, once");
     return std::get<std::vector<typename StoredAs<T>::type>>(components_);
   }
+  /// All components of a type, in the order they were added.
   template <class T>
   const auto& all() const {
     static_assert((std::is_same_v<T, Types> || ...), "add T to the types of Structure<...>, once");
     return std::get<std::vector<typename StoredAs<T>::type>>(components_);
   }
 
-  /// visit.template operator()<T>(components of type T), for each type.
+  /// Calls `visit.template operator()<T>(components)`, with all components of type T, for each
+  /// type.
   template <class Visit>
   void for_each_type(Visit&& visit) {
     (visit.template operator()<Types>(all<Types>()), ...);
   }
+  /// Calls visit(components) for the components of each type.
   template <class Visit>
   void for_each_type(Visit&& visit) const {
     (visit.template operator()<Types>(all<Types>()), ...);
@@ -162,6 +168,7 @@ class Structure {
     VectorXd::Map(q_.data(), coordinates()) = q;
     VectorXd::Map(v_.data(), coordinates()) = v;
   }
+  /// Starts at rest from these coordinates.
   void start_from(const VectorXd& q) { start_from(q, VectorXd::Zero(q.size())); }
 
   /// @throws InvalidInput for a structure without parts, and for gravity that is not finite.
@@ -172,8 +179,11 @@ class Structure {
 
   /// Coordinates at t = 0, and their rates.
   VectorXd q() const { return VectorXd::Map(q_.data(), coordinates()); }
+  /// Rates at the start.
   VectorXd v() const { return VectorXd::Map(v_.data(), coordinates()); }
+  /// All nodes, in the order they were added.
   const std::vector<Node>& nodes() const { return nodes_; }
+  /// Number of coordinates.
   int coordinates() const { return static_cast<int>(q_.size()); }
   /// Number of parts, joints and forces.
   std::size_t components() const { return (all<Types>().size() + ...); }
@@ -186,6 +196,7 @@ class Structure {
       name += (i == 0 ? " " : ", ") + std::to_string(node_number(placed.nodes[i]));
     return name + ")";
   }
+  /// What messages call a joint or a force.
   template <class T>
   requires(Constraint<T> || Force<T>) std::string name_of(const T& component)
   const { return component.name(); }

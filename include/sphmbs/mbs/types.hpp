@@ -11,10 +11,10 @@
 namespace sphmbs::mbs {
 
 template <int Rows, class S = double>
-using Vector = Eigen::Matrix<S, Rows, 1>;
+using Vector = Eigen::Matrix<S, Rows, 1>;  ///< a column
 
 template <int Rows, int Columns, class S = double>
-using Matrix = Eigen::Matrix<S, Rows, Columns>;
+using Matrix = Eigen::Matrix<S, Rows, Columns>;  ///< a small matrix
 
 using Eigen::Dynamic;
 using Eigen::MatrixXd;
@@ -25,7 +25,7 @@ using Index = std::vector<int>;
 
 /// What joints and forces read and write: pieces of memory that somebody else owns.
 using VectorIn = const Eigen::Ref<const VectorXd>&;
-using VectorOut = Eigen::Ref<VectorXd>;
-using MatrixOut = Eigen::Ref<MatrixXd>;
+using VectorOut = Eigen::Ref<VectorXd>;  ///< result, written in place
+using MatrixOut = Eigen::Ref<MatrixXd>;  ///< result, written in place
 
 }  // namespace sphmbs::mbs

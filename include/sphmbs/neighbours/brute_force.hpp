@@ -38,6 +38,7 @@ class BruteForce {
     list_ = execution::Field<std::uint32_t, Policy>(list);
   }
 
+  /// The lists, for loops.
   NeighbourView view() const { return {first_.data(), first_.data() + 1, list_.data()}; }
 
   /// Memory held [bytes].

@@ -15,9 +15,12 @@ namespace sphmbs::neighbours {
 /// Smallest box around points.
 template <int Dim, class T>
 struct Bounds {
+  /// Smallest coordinates [m].
   Vec<Dim, T> lower = Vec<Dim, T>::all(std::numeric_limits<T>::max());
+  /// Largest coordinates [m].
   Vec<Dim, T> upper = Vec<Dim, T>::all(std::numeric_limits<T>::lowest());
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Bounds& other) {
     for (int k = 0; k < Dim; ++k) {
       lower[k] = math::min(lower[k], other.lower[k]);
@@ -42,11 +45,11 @@ struct PointBounds {
 /// at most `stencil` cells away, and few candidates are tested in vain.
 template <int Dim, class T>
 struct CellGrid {
-  static constexpr int stencil = 2;
-  Vec<Dim, T> lower;
-  Vec<Dim, T> inverse_side;  // [1/m]
-  int count[Dim];
-  bool periodic[Dim];
+  static constexpr int stencil = 2;  ///< cells to look at on either side
+  Vec<Dim, T> lower;                 ///< corner of the first cell [m]
+  Vec<Dim, T> inverse_side;          ///< [1/m]
+  int count[Dim];                    ///< cells along each axis
+  bool periodic[Dim];                ///< along which axes the last cell meets the first
 
   /// A grid for all particles. Where they are spread so far that there would be more cells than
   /// twice the particles, cells become wider.
@@ -77,6 +80,7 @@ struct CellGrid {
     }
   }
 
+  /// Number of cells.
   std::size_t cells() const {
     std::size_t n = 1;
     for (int k = 0; k < Dim; ++k) n *= static_cast<std::size_t>(count[k]);
@@ -90,6 +94,7 @@ struct CellGrid {
     return static_cast<int>(s > T(0) ? (s < last ? s : last) : T(0));
   }
 
+  /// Number of the cell that holds r.
   SPHMBS_INLINE std::uint32_t cell(const Vec<Dim, T>& r) const {
     std::uint32_t c = 0;
     for (int k = Dim - 1; k >= 0; --k)
@@ -107,9 +112,10 @@ struct CellGrid {
   /// The cells along an axis that may hold neighbours of one in cell `at`: `cells` of them,
   /// beginning with `begin` and wrapping around after the last.
   struct Span {
-    int begin;
-    int cells;
+    int begin;  ///< first one, which may be before 0 on a periodic axis
+    int cells;  ///< how many
   };
+  /// Cells along an axis to look at around one of them.
   SPHMBS_INLINE Span around_cell(int axis, int at) const {
     const int n = count[axis];
     if (periodic[axis]) {

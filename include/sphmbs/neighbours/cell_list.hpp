@@ -181,6 +181,7 @@ class CellList {
                                               last_.data(), whole_.data()});
   }
 
+  /// The lists, for loops.
   NeighbourView view() const {
     const bool cut = last_.size() > 0;
     return {first_.data(), cut ? last_.data() : first_.data() + 1, list_.data()};

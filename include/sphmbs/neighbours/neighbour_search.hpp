@@ -13,18 +13,19 @@ namespace sphmbs::neighbours {
 /// Lists of neighbours that loop bodies see: those of particle a are list[first[a]] ...
 /// list[last[a] - 1], without a itself.
 struct NeighbourView {
-  const std::uint64_t* first;
-  const std::uint64_t* last;
-  const std::uint32_t* list;
+  const std::uint64_t* first;  ///< where the list of each particle begins
+  const std::uint64_t* last;   ///< one past its end
+  const std::uint32_t* list;   ///< neighbours of all particles
 };
 
 /// How far particles see: a pair is listed while its distance is below
 /// support (h_a + h_b) / 2 + skin, eq. (24).
 struct Reach {
-  double support;  // of the kernel, in smoothing lengths [-]
-  double skin;     // margin that lets particles move before the lists must be made anew [m]
-  double h_max;    // largest smoothing length [m]
+  double support;  ///< of the kernel, in smoothing lengths [-]
+  double skin;     ///< margin that lets particles move before the lists must be made anew [m]
+  double h_max;    ///< largest smoothing length [m]
 
+  /// Distance within which the lists are complete for all particles [m].
   double largest() const { return support * h_max + skin; }
 };
 

@@ -19,21 +19,25 @@ namespace sphmbs::particles {
 /// here is the particles' lasting `id`.
 template <int Dim>
 struct Cloud {
-  std::vector<Vec<Dim>> r;        // [m]
-  std::vector<Vec<Dim>> v;        // [m/s]
-  std::vector<double> rho;        // [kg/m^3]
-  std::vector<double> p;          // [Pa]
-  std::vector<double> h;          // [m]
-  std::vector<double> m;          // [kg]; planar [kg/m]
-  std::vector<std::uint8_t> set;  // gas, the number of a set of virtual particles, or an opening's
-  std::vector<Vec<Dim>> normal;  // of the surface before a virtual particle; zero where unknown [-]
-  std::vector<double> depth;     // of a virtual particle below that surface [m]
-  std::vector<std::uint8_t> sheet;     // what a virtual particle is of a thin body
-  int sets = 0;                        // sets of virtual particles so far
-  std::vector<Opening<Dim>> openings;  // through which gas comes in and goes out
+  std::vector<Vec<Dim>> r;  ///< [m]
+  std::vector<Vec<Dim>> v;  ///< [m/s]
+  std::vector<double> rho;  ///< [kg/m^3]
+  std::vector<double> p;    ///< [Pa]
+  std::vector<double> h;    ///< [m]
+  std::vector<double> m;    ///< [kg]; planar [kg/m]
+  /// Set: gas, the number of a set of virtual particles, or an opening's.
+  std::vector<std::uint8_t> set;
+  /// Normal of the surface before a virtual particle; zero where unknown [-].
+  std::vector<Vec<Dim>> normal;
+  std::vector<double> depth;           ///< of a virtual particle below that surface [m]
+  std::vector<std::uint8_t> sheet;     ///< what a virtual particle is of a thin body
+  int sets = 0;                        ///< sets of virtual particles so far
+  std::vector<Opening<Dim>> openings;  ///< through which gas comes in and goes out
 
+  /// Number of particles.
   std::size_t size() const { return r.size(); }
 
+  /// Number of those that are gas.
   std::size_t gas_count() const {
     std::size_t n = 0;
     for (const std::uint8_t s : set) n += s == gas ? 1 : 0;
@@ -150,8 +154,8 @@ struct Cloud {
 
   /// The two sets of virtual particles of a thin body.
   struct Sides {
-    int front;  // towards the normals
-    int back;
+    int front;  ///< towards the normals
+    int back;   ///< against the normals
   };
 
   /// Adds a thin body, whose two sides gas feels apart: `layers` layers of virtual particles for

@@ -13,13 +13,13 @@ namespace sphmbs::particles {
 /// particles of its own, see Cloud::add_opening.
 template <int Dim>
 struct Opening {
-  Vec<Dim> lower;   // lower corner of the zone [m]
-  Vec<Dim> upper;   // upper corner [m]
-  int axis;         // across the face
-  int side;         // 1: gas lies beyond the zone's upper end along the axis, -1: its lower end
-  State<Dim> far;   // of gas that comes in; where it flows outwards its velocity is not used
-  double distance;  // of the far gas, over which pressures even out [m]
-  Resolution resolution{};  // of its particles, set by Cloud::add_opening
+  Vec<Dim> lower;   ///< lower corner of the zone [m]
+  Vec<Dim> upper;   ///< upper corner [m]
+  int axis;         ///< across the face
+  int side;         ///< 1: gas lies beyond the zone's upper end along the axis, -1: its lower end
+  State<Dim> far;   ///< of gas that comes in; where it flows outwards its velocity is not used
+  double distance;  ///< of the far gas, over which pressures even out [m]
+  Resolution resolution{};  ///< of its particles, set by Cloud::add_opening
 
   /// From the face to the far end of the zone [m].
   double length() const { return upper[axis] - lower[axis]; }
@@ -50,19 +50,19 @@ struct Opening {
 /// The same as loop bodies see it.
 template <int Dim, class T>
 struct OpeningView {
-  Vec<Dim, T> lower;  // [m]
-  Vec<Dim, T> upper;
-  int axis;
-  T side;
-  T distance;     // of the far gas [m]
-  T spacing;      // of particles in the far gas [m]
-  T h;            // their smoothing length [m]
-  T m;            // their mass [kg]
-  T rho;          // of the far gas [kg/m^3]
-  T p;            // [Pa]
-  T e;            // [J/kg]
-  T c;            // [m/s]
-  Vec<Dim, T> v;  // with which it comes in [m/s]
+  Vec<Dim, T> lower;  ///< [m]
+  Vec<Dim, T> upper;  ///< corner of the zone with the largest coordinates [m]
+  int axis;           ///< square to the face
+  T side;             ///< 1 where gas is on the upper side of the face, -1 on the lower [-]
+  T distance;         ///< of the far gas [m]
+  T spacing;          ///< of particles in the far gas [m]
+  T h;                ///< their smoothing length [m]
+  T m;                ///< their mass [kg]
+  T rho;              ///< of the far gas [kg/m^3]
+  T p;                ///< [Pa]
+  T e;                ///< [J/kg]
+  T c;                ///< [m/s]
+  Vec<Dim, T> v;      ///< with which it comes in [m/s]
 
   /// The component of a vector across the face, into the gas.
   template <class N>

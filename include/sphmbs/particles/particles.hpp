@@ -44,7 +44,7 @@ template <int Dim, class T, execution::ExecutionPolicy Policy>
 class Particles {
  public:
   template <class U>
-  using Field = execution::Field<U, Policy>;
+  using Field = execution::Field<U, Policy>;  ///< numbers in the policy's memory
 
   /// @param energy  specific internal energy of a density and a pressure [J/kg]
   /// @throws InvalidInput for an empty cloud or more than 2^32 - 1 particles.
@@ -95,11 +95,13 @@ class Particles {
     make_room_for_rates();
   }
 
+  /// Number of particles.
   std::size_t size() const { return size_; }
 
   /// Whether some are those of openings.
   bool has_openings() const { return has_openings_; }
 
+  /// The state, for loops.
   FieldsView<Dim, T> fields() {
     FieldsView<Dim, T> f{.r = {},
                          .rest = {},
@@ -123,6 +125,7 @@ class Particles {
     return f;
   }
 
+  /// The rates of change, for loops.
   RatesView<Dim, T> rates() {
     RatesView<Dim, T> f{.r = {},
                         .v = {},
@@ -141,6 +144,7 @@ class Particles {
     return f;
   }
 
+  /// Records of the present stage, for loops.
   T* records() { return records_.data(); }
 
   /// Puts the particles into another order: the new particle i is the old order[i].

@@ -17,14 +17,14 @@ struct NoRest {};
 /// What a pair sees of a particle at a stage of the time step, in number type N.
 template <int Dim, class N>
 struct Record {
-  Vec<Dim, N> r;  // position [m]
-  Vec<Dim, N> v;  // velocity [m/s]
-  N rho;          // density [kg/m^3]
-  N p;            // pressure [Pa]
-  N c;            // sound speed [m/s]
-  N h;            // smoothing length [m]
-  N m;            // mass [kg]
-  N shell;        // 1 for virtual particles, 0 for gas
+  Vec<Dim, N> r;  ///< position [m]
+  Vec<Dim, N> v;  ///< velocity [m/s]
+  N rho;          ///< density [kg/m^3]
+  N p;            ///< pressure [Pa]
+  N c;            ///< sound speed [m/s]
+  N h;            ///< smoothing length [m]
+  N m;            ///< mass [kg]
+  N shell;        ///< 1 for virtual particles, 0 for gas
   /// What rounding left of the position [m].
   std::conditional_t<splits_positions<Scalar<N>>, Vec<Dim, N>, NoRest> rest;
 };
@@ -92,6 +92,7 @@ SPHMBS_INLINE Record<Dim, Number<T, W>> load_records(const T* records, const std
   }
 }
 
+/// Writes the record of particle i.
 template <int Dim, class T>
 SPHMBS_INLINE void store_record(T* records, std::size_t i, const Record<Dim, T>& s) {
   T* f = records + i * record_size<Dim, T>;

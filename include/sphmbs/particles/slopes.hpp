@@ -13,16 +13,16 @@ namespace sphmbs::particles {
 /// First derivatives of the gas at a particle.
 template <int Dim, class N>
 struct Slopes {
-  Vec<Dim, N> rho;     // of density [kg/m^4]
-  Vec<Dim, N> p;       // of pressure [Pa/m]
-  Vec<Dim, N> v[Dim];  // of each component of velocity [1/s]
+  Vec<Dim, N> rho;     ///< of density [kg/m^4]
+  Vec<Dim, N> p;       ///< of pressure [Pa/m]
+  Vec<Dim, N> v[Dim];  ///< of each component of velocity [1/s]
 };
 
 /// The surface that a virtual particle lies behind.
 template <int Dim, class N>
 struct Surface {
-  Vec<Dim, N> normal;  // unit vector, out of the solid into the gas [-]
-  N depth;             // of the particle below the surface [m]
+  Vec<Dim, N> normal;  ///< unit vector, out of the solid into the gas [-]
+  N depth;             ///< of the particle below the surface [m]
 };
 
 /// Numbers that either of the two takes in memory. A gas particle has slopes, a virtual particle a
@@ -59,8 +59,8 @@ SPHMBS_INLINE Surface<Dim, N> unpack_surface(const N* f) {
 /// Both readings of what is stored for a particle; which one holds, its record says.
 template <int Dim, class N>
 struct Vicinity {
-  Slopes<Dim, N> slopes;
-  Surface<Dim, N> surface;
+  Slopes<Dim, N> slopes;    ///< of gas
+  Surface<Dim, N> surface;  ///< before a virtual particle
 };
 
 /// Of particle i.
@@ -84,6 +84,7 @@ SPHMBS_INLINE Vicinity<Dim, Number<T, W>> load_vicinities(const T* stored,
   }
 }
 
+/// Writes the slopes at particle i.
 template <int Dim, class T>
 SPHMBS_INLINE void store_slopes(T* stored, std::size_t i, const Slopes<Dim, T>& s) {
   T* f = stored + i * slopes_size<Dim, T>;
@@ -96,6 +97,7 @@ SPHMBS_INLINE void store_slopes(T* stored, std::size_t i, const Slopes<Dim, T>& 
   }
 }
 
+/// Writes the surface before virtual particle i.
 template <int Dim, class T>
 SPHMBS_INLINE void store_surface(T* stored, std::size_t i, const Surface<Dim, T>& s) {
   T* f = stored + i * slopes_size<Dim, T>;

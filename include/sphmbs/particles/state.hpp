@@ -11,9 +11,9 @@ namespace sphmbs::particles {
 /// State of the gas at a point.
 template <int Dim>
 struct State {
-  double rho;       // density [kg/m^3]
-  double p;         // pressure [Pa]
-  Vec<Dim> v = {};  // velocity [m/s]
+  double rho;       ///< density [kg/m^3]
+  double p;         ///< pressure [Pa]
+  Vec<Dim> v = {};  ///< velocity [m/s]
 
   /// @throws InvalidInput for a density or pressure that is not positive and finite.
   void check() const {
@@ -24,8 +24,8 @@ struct State {
 
 /// Size of the particles of a lattice.
 struct Resolution {
-  double spacing;                 // [m]
-  double smoothing_ratio = 1.25;  // initial smoothing length / spacing, as in the paper [-]
+  double spacing;                 ///< [m]
+  double smoothing_ratio = 1.25;  ///< initial smoothing length / spacing, as in the paper [-]
 
   /// @throws InvalidInput for a spacing that is not positive and finite, or a ratio beyond 0.8
   /// to 4.

@@ -16,8 +16,10 @@ concept Limiter = std::is_trivially_copyable_v<L> && requires(const L limiter, d
 
 /// Harmonic mean of the differences on both sides, none at extrema (van Leer 1974).
 struct VanLeer {
+  /// Whether slopes are limited particle by particle first.
   static constexpr bool limits_particles = false;
 
+  /// Limited difference between two particles, from the slope's and the true one.
   template <class N>
   SPHMBS_INLINE N difference(N projected, N jump) const {
     const N behind = N(2) * projected - jump;
@@ -28,8 +30,10 @@ struct VanLeer {
 
 /// The smaller of the differences on both sides, none at extrema: the most careful (Roe 1986).
 struct Minmod {
+  /// Whether slopes are limited particle by particle first.
   static constexpr bool limits_particles = false;
 
+  /// Limited difference between two particles, from the slope's and the true one.
   template <class N>
   SPHMBS_INLINE N difference(N projected, N jump) const {
     const N behind = N(2) * projected - jump;
@@ -43,8 +47,10 @@ struct Minmod {
 /// as little as with van Leer's; shear flow along walls, whose largest values have no equal beyond
 /// them, is braked more.
 struct BarthJespersen {
+  /// Whether slopes are limited particle by particle first.
   static constexpr bool limits_particles = true;
 
+  /// Limited difference between two particles, from the slope's and the true one.
   template <class N>
   SPHMBS_INLINE N difference(N projected, N) const {
     return projected;
@@ -53,8 +59,10 @@ struct BarthJespersen {
 
 /// None: for flows known to be smooth.
 struct Unlimited {
+  /// Whether slopes are limited particle by particle first.
   static constexpr bool limits_particles = false;
 
+  /// Limited difference between two particles, from the slope's and the true one.
   template <class N>
   SPHMBS_INLINE N difference(N projected, N) const {
     return projected;

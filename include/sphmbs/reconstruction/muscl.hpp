@@ -12,10 +12,13 @@ namespace sphmbs::reconstruction {
 /// gases meet), keeps the values at the particles, and is counted.
 template <Limiter LimiterType = VanLeer>
 struct Muscl {
-  static constexpr bool slopes = true;
+  static constexpr bool slopes = true;  ///< whether slopes of the gas are computed
+  /// Whether slopes are limited particle by particle first.
   static constexpr bool limits_particles = LimiterType::limits_particles;
+  /// How slopes are limited.
   LimiterType limiter{};
 
+  /// Half of the limited difference between the particles of a pair.
   template <class N>
   SPHMBS_INLINE N step(N projected, N jump) const {
     return N(static_cast<Scalar<N>>(0.5)) * limiter.difference(projected, jump);

@@ -13,6 +13,7 @@ namespace sphmbs::riemann {
 /// Exact to first order in the jump. The paper prints rho_b rho_a c_a as the first term of (16),
 /// which is no pressure; this is the solution of the acoustic problem.
 struct Acoustic {
+  /// p* and u*, eqs. (16) and (19).
   template <class Eos, class N>
   SPHMBS_INLINE Star<N> star(const Eos&, const State<N>& left, const State<N>& right) const {
     const N Zl = detail::impedance(left);
@@ -22,6 +23,7 @@ struct Acoustic {
             .u = (Zl * left.u + Zr * right.u + left.p - right.p) * share};
   }
 
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 

@@ -14,6 +14,7 @@ namespace sphmbs::riemann {
 /// vacuum P* is 0 and u* the mean of both escape speeds. A pack iterates until its last lane is
 /// done. p* of a stiffened gas carries the rounding of P*: some 50 Pa for water in float.
 struct Exact {
+  /// p* and u* of the exact solution, by Newton's method.
   template <class Eos, class N>
   SPHMBS_INLINE Star<N> star(const Eos& eos, const State<N>& left, const State<N>& right) const {
     static_assert(GammaLaw<Eos>,
@@ -55,6 +56,7 @@ struct Exact {
     return {.p = P - stiffness, .u = N(T(0.5)) * (left.u + right.u + drift)};
   }
 
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 
  private:

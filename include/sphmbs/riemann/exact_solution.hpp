@@ -11,9 +11,9 @@ namespace sphmbs::riemann {
 
 /// Density, velocity and pressure of a plane flow.
 struct Primitive {
-  double rho;  // [kg/m^3]
-  double u;    // [m/s]
-  double p;    // [Pa]
+  double rho;  ///< [kg/m^3]
+  double u;    ///< [m/s]
+  double p;    ///< [Pa]
 };
 
 /// Exact solution of the Riemann problem of an ideal gas with an initial jump at x = 0 (Toro 2009,

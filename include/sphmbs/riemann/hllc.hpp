@@ -28,6 +28,7 @@ namespace sphmbs::riemann {
 /// pressure ratios up to 1e5 within 11 % and 20 % (median 0.3 % and 3 %), collisions up to Mach 30
 /// within 4 %, Sod's tube and Toro's blast waves 0.9 % and 4 %. Near vacuum p* is 0 too early.
 struct Hllc {
+  /// p* and u* between the estimated waves.
   template <class Eos, class N>
   SPHMBS_INLINE Star<N> star(const Eos& eos, const State<N>& left, const State<N>& right) const {
     static_assert(GammaLaw<Eos>,
@@ -59,6 +60,7 @@ struct Hllc {
             .u = (Wl * left.u + Wr * right.u + left.p - right.p) * share};
   }
 
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 

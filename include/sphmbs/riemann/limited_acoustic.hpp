@@ -22,8 +22,9 @@ namespace sphmbs::riemann {
 /// The idea and the strength 3 are those of Zhang, Hu and Adams, J. Comput. Phys. 335 (2017) 605,
 /// who limit p* alone.
 struct LimitedAcoustic {
-  double strength = 3;  // [-]
+  double strength = 3;  ///< [-]
 
+  /// p* and u* with limited dissipation.
   template <class Eos, class N>
   SPHMBS_INLINE Star<N> star(const Eos&, const State<N>& left, const State<N>& right) const {
     using T = Scalar<N>;

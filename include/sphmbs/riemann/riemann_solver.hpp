@@ -14,17 +14,17 @@ namespace sphmbs::riemann {
 /// eq. (17).
 template <class N>
 struct State {
-  N rho;  // density [kg/m^3]
-  N u;    // velocity along the pair [m/s]
-  N p;    // pressure [Pa]
-  N c;    // sound speed [m/s]
+  N rho;  ///< density [kg/m^3]
+  N u;    ///< velocity along the pair [m/s]
+  N p;    ///< pressure [Pa]
+  N c;    ///< sound speed [m/s]
 };
 
 /// What meets at the contact between them: p*, eq. (16), and v*, eq. (19).
 template <class N>
 struct Star {
-  N p;  // [Pa]
-  N u;  // [m/s]
+  N p;  ///< [Pa]
+  N u;  ///< [m/s]
 };
 
 /// A gas whose heat capacity ratio is one number, as that of the ideal and the stiffened gas.

@@ -14,25 +14,28 @@ namespace sphmbs::sph {
 template <int Dim, class N>
 struct AroundOpening {
   // Over what is in front of it, by the distance across the face too.
-  N weight = N(0);
-  N p = N(0);
-  N u = N(0);          // velocity into the gas [m/s]
-  N impedance = N(0);  // rho c [kg/(m^2 s)]
-  N c = N(0);
-  N distance = N(0);  // across the face [m]
+  N weight = N(0);     ///< sum of the weights
+  N p = N(0);          ///< pressure [Pa]
+  N u = N(0);          ///< velocity into the gas [m/s]
+  N impedance = N(0);  ///< rho c [kg/(m^2 s)]
+  N c = N(0);          ///< sound speed [m/s]
+  N distance = N(0);   ///< across the face [m]
   // Over all.
-  N number = N(0);
-  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));
+  N number = N(0);                         ///< sum of the weights
+  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));  ///< velocity [m/s]
 };
 
+/// What a neighbour adds to the sums around a particle of an opening.
 template <class Scheme, class T, bool wraps>
 struct OpeningTerm {
-  static constexpr int dim = Scheme::dim;
-  using Kernel = typename Scheme::Kernel;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  using Kernel = typename Scheme::Kernel;  ///< smoothing function of the scheme
+  /// Periodic axes, across which the nearest image counts.
   const geometry::Periodicity<dim, T>& space;
-  const particles::Record<dim, T>& a;
-  const particles::OpeningView<dim, T>& opening;
+  const particles::Record<dim, T>& a;             ///< the particle whose sums these are
+  const particles::OpeningView<dim, T>& opening;  ///< that the particle belongs to
 
+  /// Adds the neighbour b, or a pack of them, to the sums.
   template <class N>
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&,
@@ -67,17 +70,19 @@ struct OpeningTerm {
 /// different velocities at one pressure, and would run into each other.
 template <class Scheme, class T, int lanes>
 struct EvaluateOpening {
-  static constexpr int dim = Scheme::dim;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
 
+  /// Of the gas.
   decltype(Scheme::eos) eos;
-  geometry::Periodicity<dim, T> space;
-  Gathered<T> from;
-  const particles::OpeningView<dim, T>* openings;
-  const std::uint8_t* set;
-  particles::RatesView<dim, T> rates;
-  T keep;    // weight of the rates that are there already [-]
-  T border;  // how far particles see across periodic borders [m]
+  geometry::Periodicity<dim, T> space;  ///< periodic axes, across which the nearest image counts
+  Gathered<T> from;                     ///< neighbours, and what is known of them
+  const particles::OpeningView<dim, T>* openings;  ///< all of them, by number
+  const std::uint8_t* set;                         ///< sets of all particles
+  particles::RatesView<dim, T> rates;              ///< of all particles
+  T keep;    ///< weight of the rates that are there already [-]
+  T border;  ///< how far particles see across periodic borders [m]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     if (!particles::is_opening(set[i])) return;
     const particles::OpeningView<dim, T>& o = openings[particles::opening_of(set[i])];

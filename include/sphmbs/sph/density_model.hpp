@@ -12,8 +12,10 @@ namespace sphmbs::sph {
 /// The paper's: eq. (20) alone, free to drift from the masses around. Best where the gas is smooth
 /// and slow, since the disorder of particles leaves no trace in the pressure.
 struct Integrated {
+  /// Whether the density is drawn to that of the masses around.
   static constexpr bool relaxes = false;
-  static constexpr double rate = 0;
+  static constexpr double rate = 0;  ///< nothing is drawn [-]
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 
@@ -27,8 +29,9 @@ struct Integrated {
 /// that is some percent off for ever, with it they converge; mass, momentum and energy are
 /// conserved all the same. In slow gas the disorder of particles becomes noise of the pressure.
 struct Relaxed {
+  /// Whether the density is drawn to that of the masses around.
   static constexpr bool relaxes = true;
-  double rate = 0.2;  // [-]
+  double rate = 0.2;  ///< [-]
 
   /// @throws InvalidInput unless the rate lies between 0 and 1, beyond which steps may be unstable.
   void check() const {

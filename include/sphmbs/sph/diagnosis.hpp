@@ -16,9 +16,9 @@ namespace sphmbs::sph {
 
 /// When a state was found that cannot be gone on with.
 struct Moment {
-  std::uint64_t step;  // counted from 1
-  double time;         // [s]
-  double dt;           // length of the step, or the part of it up to the stage [s]
+  std::uint64_t step;  ///< counted from 1
+  double time;         ///< [s]
+  double dt;           ///< length of the step, or the part of it up to the stage [s]
 };
 
 /// The moment of a stage at time + dt after so many steps, the last of length last_dt: at the

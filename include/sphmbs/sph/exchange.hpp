@@ -43,6 +43,7 @@ class Exchange {
     body_work_ += scale * body_power_;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("impulse", impulse_);

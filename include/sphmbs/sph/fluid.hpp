@@ -35,11 +35,11 @@ template <class Scheme, execution::ExecutionPolicy Policy = execution::Default,
           class Motion = boundary::Fixed, class T = double>
 class Fluid {
  public:
-  static constexpr int dim = Scheme::dim;
-  using SchemeType = Scheme;
-  using PolicyType = Policy;
-  using NumberType = T;
-  using Search = neighbours::CellList<dim, T, Policy>;
+  static constexpr int dim = Scheme::dim;               ///< dimension of space
+  using SchemeType = Scheme;                            ///< the scheme
+  using PolicyType = Policy;                            ///< where loops run
+  using NumberType = T;                                 ///< of the fields, double or float
+  using Search = neighbours::CellList<dim, T, Policy>;  ///< how neighbours are found
 
   /// Takes the cloud and gives its memory back: move it in where particles are many.
   /// @throws InvalidInput for an empty cloud, parameters out of range, or a periodic axis shorter
@@ -169,16 +169,22 @@ class Fluid {
     before_ = {lists_, exchange_};
   }
 
-  double time() const { return time_; }  // of the state y [s]
+  double time() const { return time_; }  ///< of the state y [s]
+  /// Number of all particles.
   std::size_t size() const { return particles_.size(); }
+  /// Number of gas particles; with openings it changes.
   std::size_t gas_count() const { return gas_count_; }
-  std::size_t opening_count() const { return openings_.particle_count(); }  // in their zones
+  std::size_t opening_count() const { return openings_.particle_count(); }  ///< in their zones
+  /// Number of virtual particles.
   std::size_t virtual_count() const { return size() - gas_count_ - opening_count(); }
+  /// As given at the start.
   const Scheme& scheme() const { return scheme_; }
+  /// As given at the start.
   const geometry::Domain<dim>& domain() const { return domain_; }
 
   /// What the last evaluation of the rates found.
   const Survey<dim>& survey() const { return survey_; }
+  /// Counts and times since the start.
   const Statistics& statistics() const { return statistics_; }
   /// What the gas has received from walls, bodies and the body force.
   const Exchange<dim>& exchange() const { return exchange_; }
@@ -253,6 +259,7 @@ class Fluid {
     }
   }
 
+  /// Memory that particles and lists take where loops run [bytes].
   std::size_t bytes() { return particles_.bytes() + search_.bytes() + vicinities_.bytes(); }
 
  private:

@@ -19,10 +19,12 @@ concept FluxForm = std::is_trivially_copyable_v<F> && requires(const F form, dou
 
 /// The paper's, eqs. (20)-(22): 1/rho_a^2 + 1/rho_b^2 in the force, 1 in the density.
 struct MassForm {
+  /// For densities a and b, see `FluxForm` [m^6/kg^2].
   template <class N>
   SPHMBS_INLINE N area(N a, N b) const {
     return N(1) / (a * a) + N(1) / (b * b);
   }
+  /// For densities a and b, see `FluxForm` [-].
   template <class N>
   SPHMBS_INLINE N dilation(N, N) const {
     return N(1);
@@ -34,10 +36,12 @@ struct MassForm {
 /// shocks obey the jump conditions, and the energy together with background pressure times volume
 /// is conserved pair by pair.
 struct VolumeForm {
+  /// For densities a and b, see `FluxForm` [m^6/kg^2].
   template <class N>
   SPHMBS_INLINE N area(N a, N b) const {
     return N(2) / (a * b);
   }
+  /// For densities a and b, see `FluxForm` [-].
   template <class N>
   SPHMBS_INLINE N dilation(N a, N b) const {
     return a / b;

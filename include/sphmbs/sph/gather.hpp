@@ -10,9 +10,9 @@ namespace sphmbs::sph {
 /// What a gathering loop reads.
 template <class T>
 struct Gathered {
-  neighbours::NeighbourView neighbours;
-  const T* records;
-  const T* vicinities;  // null where the scheme needs none
+  neighbours::NeighbourView neighbours;  ///< their lists
+  const T* records;                      ///< of all particles, see `particles::Record`
+  const T* vicinities;                   ///< null where the scheme needs none
 };
 
 /// Calls term(record, vicinity, sum) for all neighbours of particle i, `lanes` at once, in the

@@ -14,20 +14,22 @@ namespace sphmbs::sph {
 /// particle is seen.
 template <int Dim>
 struct Sample {
-  Vec<Dim> v;  // velocity [m/s]
-  double rho;  // density [kg/m^3]
-  double p;    // pressure [Pa]
-  int seen;    // gas particles whose support covers the point
+  Vec<Dim> v;  ///< velocity [m/s]
+  double rho;  ///< density [kg/m^3]
+  double p;    ///< pressure [Pa]
+  int seen;    ///< gas particles whose support covers the point
 };
 
+/// Sums over particles at a point, by kernel weights.
 template <int Dim>
 struct WeightedSum {
-  double weight = 0;
-  Vec<Dim> v = {};
-  double rho = 0;
-  double p = 0;
-  int seen = 0;
+  double weight = 0;  ///< sum of the weights [-]
+  Vec<Dim> v = {};    ///< [m/s]
+  double rho = 0;     ///< [kg/m^3]
+  double p = 0;       ///< [Pa]
+  int seen = 0;       ///< particles
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const WeightedSum& o) {
     weight += o.weight;
     v += o.v;
@@ -36,6 +38,7 @@ struct WeightedSum {
     seen += o.seen;
   }
 
+  /// Divided by the sum of the weights.
   Sample<Dim> sample() const {
     const double scale = weight > 0 ? 1 / weight : std::numeric_limits<double>::quiet_NaN();
     return {.v = scale * v, .rho = scale * rho, .p = scale * p, .seen = seen};
@@ -45,11 +48,12 @@ struct WeightedSum {
 /// What a particle's record contributes at point x.
 template <kernels::Kernel Kernel, class T>
 struct WeighAtPoint {
-  static constexpr int dim = Kernel::dim;
-  const T* records;
-  geometry::Periodicity<dim, T> space;
-  Vec<dim, T> x;
+  static constexpr int dim = Kernel::dim;  ///< dimension of space
+  const T* records;                        ///< of all particles, see `particles::Record`
+  geometry::Periodicity<dim, T> space;     ///< periodic axes, across which the nearest image counts
+  Vec<dim, T> x;                           ///< the point [m]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE WeightedSum<dim> operator()(std::size_t i) const {
     const auto s = particles::load_record<dim>(records, i);
     const Vec<dim> d = space.nearest(x - s.r).template to<double>();

@@ -72,10 +72,12 @@ class ListSchedule {
     surplus_ = surplus;
   }
 
+  /// How far the present lists reach.
   const neighbours::Reach& reach() const { return reach_; }
   /// What the last stage allowed prescribed motion beyond its velocity [m].
   double surplus() const { return surplus_; }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("support", reach_.support);

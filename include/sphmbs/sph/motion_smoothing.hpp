@@ -13,9 +13,9 @@ namespace sphmbs::sph {
 /// XSPH, eq. (14): particles move with a velocity smoothed over their neighbours,
 /// dr_a/dt = v_a - zeta sum m_b / rho_ab v_ab W, rho_ab the mean density.
 struct Xsph {
-  static constexpr bool acts = true;
-  static constexpr bool shifts = false;
-  double zeta = 0.5;  // as in the paper [-]
+  static constexpr bool acts = true;     ///< whether neighbours change how a particle moves
+  static constexpr bool shifts = false;  ///< whether particles drift to where they are sparse
+  double zeta = 0.5;                     ///< as in the paper [-]
 
   /// @throws InvalidInput unless zeta lies between 0 and 1.
   void check() const { expects(zeta >= 0 && zeta <= 1, "XSPH zeta", zeta, "between 0 and 1"); }
@@ -23,9 +23,10 @@ struct Xsph {
 
 /// Particles move with their own velocity.
 struct NoXsph {
-  static constexpr bool acts = false;
-  static constexpr bool shifts = false;
-  static constexpr double zeta = 0;
+  static constexpr bool acts = false;    ///< whether neighbours change how a particle moves
+  static constexpr bool shifts = false;  ///< whether particles drift to where they are sparse
+  static constexpr double zeta = 0;      ///< of XSPH [-]
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 
@@ -38,11 +39,11 @@ struct NoXsph {
 /// Fields are carried along and not corrected: in the frame of the gas they move with that drift,
 /// an error of the drift times their gradient, which vanishes with the disorder.
 struct Shifting {
-  static constexpr bool acts = true;
-  static constexpr bool shifts = true;
-  double strength = 0.5;  // [-]
-  double limit = 1;       // [-]
-  double zeta = 0.5;      // of XSPH [-]
+  static constexpr bool acts = true;    ///< whether neighbours change how a particle moves
+  static constexpr bool shifts = true;  ///< whether particles drift to where they are sparse
+  double strength = 0.5;                ///< [-]
+  double limit = 1;                     ///< [-]
+  double zeta = 0.5;                    ///< of XSPH [-]
 
   /// @throws InvalidInput for a negative strength or limit, or zeta outside 0 to 1.
   void check() const {

@@ -19,9 +19,9 @@ namespace sphmbs::sph {
 template <class Scheme, class T, execution::ExecutionPolicy Policy>
 class Openings {
  public:
-  static constexpr int dim = Scheme::dim;
-  using Eos = decltype(Scheme::eos);
-  using Space = geometry::Periodicity<dim, T>;
+  static constexpr int dim = Scheme::dim;       ///< dimension of space
+  using Eos = decltype(Scheme::eos);            ///< equation of state of the gas
+  using Space = geometry::Periodicity<dim, T>;  ///< periodic axes
 
   /// @throws InvalidInput for a zone less deep than gas sees, across a periodic axis, beyond a
   ///         periodic border, with other particles in it or without gas before its face, and for
@@ -57,6 +57,7 @@ class Openings {
 
   /// Particles in all zones.
   std::size_t particle_count() const { return particle_count_; }
+  /// What has passed each opening since the start.
   const std::vector<Traffic<dim>>& traffic() const { return traffic_; }
 
   /// k = keep k + f(stage) for the openings' particles.
@@ -121,6 +122,7 @@ class Openings {
     return all;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("next_id", next_id_);

@@ -17,31 +17,33 @@ SPHMBS_INLINE auto meets_wall(const particles::Record<Dim, T>& a,
 /// What is found between the particles a and b of a pair.
 template <int Dim, class N>
 struct Between {
-  riemann::Star<N> star;  // velocity along the line from a to b, and pressure
-  N u_a;                  // velocity of a along that line, eq. (17) [m/s]
-  N rho_a;                // densities that weigh the face between them [kg/m^3]
-  N rho_b;
-  N fell = N(0);                                 // 1 where a reconstruction was refused
-  Vec<Dim, N> relative;                          // v_b - v_a, b's as a sees it [m/s]
-  Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));       // v_a - v_b for the viscous stress [m/s]
-  Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  // velocity by which that stress heats a [m/s]
-  N dT = N(0);                                   // T_a - T_b for the conduction of heat [K]
+  riemann::Star<N> star;                    ///< velocity along the line from a to b, and pressure
+  N u_a;                                    ///< velocity of a along that line, eq. (17) [m/s]
+  N rho_a;                                  ///< densities that weigh the face between them [kg/m^3]
+  N rho_b;                                  ///< of b
+  N fell = N(0);                            ///< 1 where a reconstruction was refused
+  Vec<Dim, N> relative;                     ///< v_b - v_a, b's as a sees it [m/s]
+  Vec<Dim, N> dv = Vec<Dim, N>::all(N(0));  ///< v_a - v_b for the viscous stress [m/s]
+  Vec<Dim, N> rubbing = Vec<Dim, N>::all(N(0));  ///< velocity by which that stress heats a [m/s]
+  N dT = N(0);                                   ///< T_a - T_b for the conduction of heat [K]
   // Where gas slips only the part of the drag along the normal acts.
-  N slips = N(0);
-  Vec<Dim, N> normal = Vec<Dim, N>::all(N(0));
+  N slips = N(0);                               ///< share by which it slips, 0 or 1
+  Vec<Dim, N> normal = Vec<Dim, N>::all(N(0));  ///< of the wall
 };
 
 /// The two sides of a pair's Riemann problem and its solution: as the particles are, reconstructed
 /// between gas and gas, by the wall model between gas and wall.
 template <class Scheme, class T>
 struct PairSides {
-  static constexpr int dim = Scheme::dim;
-  using Wall = typename Scheme::Wall;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  using Wall = typename Scheme::Wall;      ///< wall model of the scheme
 
-  const Scheme& scheme;
-  const particles::Record<dim, T>& a;
-  const particles::Vicinity<dim, T>& around_a;
+  const Scheme& scheme;                         ///< with the numbers of its policies
+  const particles::Record<dim, T>& a;           ///< the particle whose sums these are
+  const particles::Vicinity<dim, T>& around_a;  ///< slopes or surface at the particle
 
+  /// For the neighbour b, or a pack of them, which lies d away from a.
+  /// @param inverse_r  1/|d| [1/m]
   template <class N>
   SPHMBS_INLINE Between<dim, N> operator()(const particles::Record<dim, N>& b,
                                            const particles::Vicinity<dim, N>& around_b,

@@ -10,18 +10,18 @@ namespace sphmbs::sph {
 /// Sums over the neighbours of a particle, in number type N.
 template <int Dim, class N>
 struct PairSums {
-  N rho = N(0);                                // half of eq. (20)
-  N e = N(0);                                  // eq. (22) and heat
-  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));      // eq. (21) and viscous stress
-  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));      // the sum of eq. (14), without its sign
-  Vec<Dim, N> crowd = Vec<Dim, N>::all(N(0));  // -sum of V_b grad W [1/m]
-  N spread = N(0);                             // mean square of relative velocities [m^2/s^2]
+  N rho = N(0);                                ///< half of eq. (20)
+  N e = N(0);                                  ///< eq. (22) and heat
+  Vec<Dim, N> v = Vec<Dim, N>::all(N(0));      ///< eq. (21) and viscous stress
+  Vec<Dim, N> r = Vec<Dim, N>::all(N(0));      ///< the sum of eq. (14), without its sign
+  Vec<Dim, N> crowd = Vec<Dim, N>::all(N(0));  ///< -sum of V_b grad W [1/m]
+  N spread = N(0);                             ///< mean square of relative velocities [m^2/s^2]
   // By m_a, on a virtual particle: the power of other virtual particles; with surfaces what the
   // gas gets from a less than the work of its force.
-  N power = N(0);
-  N pairs = N(0);    // neighbours inside the support
-  N density = N(0);  // sum of m_b W [kg/m^3]
-  N falls = N(0);    // pairs whose reconstruction was refused
+  N power = N(0);    ///< [W/kg]
+  N pairs = N(0);    ///< neighbours inside the support
+  N density = N(0);  ///< sum of m_b W [kg/m^3]
+  N falls = N(0);    ///< pairs whose reconstruction was refused
 };
 
 /// The paper's page: what a neighbour b adds to the rates of particle a, eqs. (14) and (20)-(22).
@@ -29,15 +29,17 @@ struct PairSums {
 /// @tparam wraps  whether the neighbour may be a periodic image
 template <class Scheme, class T, bool wraps>
 struct PairTerm {
-  static constexpr int dim = Scheme::dim;
-  using Kernel = typename Scheme::Kernel;
-  using Wall = typename Scheme::Wall;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  using Kernel = typename Scheme::Kernel;  ///< smoothing function of the scheme
+  using Wall = typename Scheme::Wall;      ///< wall model of the scheme
 
-  const Scheme& scheme;
+  const Scheme& scheme;  ///< with the numbers of its policies
+  /// Periodic axes, across which the nearest image counts.
   const geometry::Periodicity<dim, T>& space;
-  const particles::Record<dim, T>& a;
-  const particles::Vicinity<dim, T>& around_a;
+  const particles::Record<dim, T>& a;           ///< the particle whose sums these are
+  const particles::Vicinity<dim, T>& around_a;  ///< slopes or surface at the particle
 
+  /// Adds the neighbour b, or a pack of them, to the sums.
   template <class N>
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>& around_b,

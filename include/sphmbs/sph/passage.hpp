@@ -12,12 +12,13 @@ namespace sphmbs::sph {
 /// What has passed the face of an opening one way since the beginning.
 template <int Dim>
 struct Passed {
-  std::uint64_t particles = 0;
-  double mass = 0;         // [kg]
-  double volume = 0;       // sum m / rho [m^3]
-  Vec<Dim> momentum = {};  // [kg m/s]
-  double energy = 0;       // kinetic and internal [J]
+  std::uint64_t particles = 0;  ///< how many
+  double mass = 0;              ///< [kg]
+  double volume = 0;            ///< sum m / rho [m^3]
+  Vec<Dim> momentum = {};       ///< [kg m/s]
+  double energy = 0;            ///< kinetic and internal [J]
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Passed& o) {
     particles += o.particles;
     mass += o.mass;
@@ -26,6 +27,7 @@ struct Passed {
     energy += o.energy;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("particles", particles);
@@ -39,8 +41,8 @@ struct Passed {
 /// Into the gas and out of it.
 template <int Dim>
 struct Traffic {
-  Passed<Dim> in;
-  Passed<Dim> out;
+  Passed<Dim> in;   ///< came in
+  Passed<Dim> out;  ///< went out
 
   /// What came in less what went out, without their number.
   Passed<Dim> net() const {
@@ -48,11 +50,13 @@ struct Traffic {
             in.energy - out.energy};
   }
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Traffic& o) {
     in.combine(o.in);
     out.combine(o.out);
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     archive("in", in);

@@ -13,16 +13,17 @@ namespace sphmbs::sph {
 /// @tparam lanes  neighbours taken at once
 template <class Scheme, class T, int lanes>
 struct EvaluateRates {
-  static constexpr int dim = Scheme::dim;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
 
-  Scheme scheme;
-  geometry::Periodicity<dim, T> space;
-  Gathered<T> from;
-  const std::uint8_t* set;
-  particles::RatesView<dim, T> rates;
-  T keep;    // weight of the rates that are there already [-]
-  T border;  // how far particles see across periodic borders [m]
+  Scheme scheme;                        ///< with the numbers of its policies
+  geometry::Periodicity<dim, T> space;  ///< periodic axes, across which the nearest image counts
+  Gathered<T> from;                     ///< neighbours, and what is known of them
+  const std::uint8_t* set;              ///< sets of all particles
+  particles::RatesView<dim, T> rates;   ///< of all particles
+  T keep;                               ///< weight of the rates that are there already [-]
+  T border;                             ///< how far particles see across periodic borders [m]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto a = particles::load_record<dim>(from.records, i);
     const PairSums<dim, T> sum =

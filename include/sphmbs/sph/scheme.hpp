@@ -51,33 +51,47 @@ struct RiemannSph {
   static_assert(((detail::places<Policies> == 1) && ...),
                 "every policy after the equation of state must be a motion smoothing, a wall "
                 "model, a stress model, a reconstruction, a density model or a flux form");
-  static constexpr int dim = KernelType::dim;
-  using Kernel = KernelType;
-  using Riemann = RiemannType;
+  static constexpr int dim = KernelType::dim;  ///< dimension of space
+  using Kernel = KernelType;                   ///< smoothing function
+  using Riemann = RiemannType;                 ///< Riemann solver
+  /// How particles move, see `MotionSmoothing`.
   using Smoothing = Choice<detail::Fits<detail::Place::smoothing>, Xsph, Policies...>;
+  /// What gas meets at walls, see `boundary::WallModel`.
   using Wall = Choice<detail::Fits<detail::Place::wall>, boundary::Evolved, Policies...>;
+  /// Viscosity and conduction, see `StressModel`.
   using Stress = Choice<detail::Fits<detail::Place::stress>, Inviscid, Policies...>;
+  /// Between particles, see `reconstruction::Reconstruction`.
   using Reconstruction =
       Choice<detail::Fits<detail::Place::reconstruction>, reconstruction::Constant, Policies...>;
+  /// Where the density comes from, see `DensityModel`.
   using Density = Choice<detail::Fits<detail::Place::density>, Integrated, Policies...>;
+  /// Weights of pairs, see `FluxForm`.
   using Form = Choice<detail::Fits<detail::Place::form>, MassForm, Policies...>;
 
   /// Whether pairs see slopes of the gas and surfaces of solids.
   static constexpr bool vicinity = Reconstruction::slopes || Wall::surfaces;
 
+  /// Equation of state with its numbers.
   Eos eos{};
-  Vec<dim> acceleration{};  // body force per mass, g [m/s^2]
+  Vec<dim> acceleration{};  ///< body force per mass, g [m/s^2]
   /// A pressure that everything is at: forces are those of p - background, so that its share in the
   /// noise of disordered particles vanishes. Momentum is conserved as before, and instead of the
   /// energy its sum with background times volume (exactly so with VolumeForm and Integrated). The
   /// force on a body lacks background times its area vector, which is zero for closed bodies [Pa].
   double background = 0;
+  /// Riemann solver with its numbers.
   Riemann riemann{};
+  /// With its numbers.
   Smoothing smoothing{};
+  /// With its numbers.
   Wall wall{};
+  /// With its numbers.
   Stress stress{};
+  /// With its numbers.
   Reconstruction reconstruction{};
+  /// With its numbers.
   Density density{};
+  /// With its numbers.
   Form form{};
 
   /// @throws InvalidInput where a policy's parameter is out of range.

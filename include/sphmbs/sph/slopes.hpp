@@ -16,11 +16,11 @@ inline constexpr int sloping_fields = 2 + Dim;
 /// Sums over neighbours for the slopes of a particle: F = -(dW/dr) / r weighs.
 template <int Dim, class N>
 struct SlopeSums {
-  Vec<Dim, N> moment[Dim];                 // sum V_b F d d^T [-]
-  Vec<Dim, N> slope[sloping_fields<Dim>];  // sum V_b F d (f_b - f_a)
-  N low[sloping_fields<Dim>];              // ranges of f_b - f_a
-  N high[sloping_fields<Dim>];
-  N reach2 = N(0);  // squared distance of the farthest neighbour [m^2]
+  Vec<Dim, N> moment[Dim];                 ///< sum V_b F d d^T [-]
+  Vec<Dim, N> slope[sloping_fields<Dim>];  ///< sum V_b F d (f_b - f_a)
+  N low[sloping_fields<Dim>];              ///< smallest f_b - f_a
+  N high[sloping_fields<Dim>];             ///< largest f_b - f_a
+  N reach2 = N(0);                         ///< squared distance of the farthest neighbour [m^2]
 
   SPHMBS_INLINE SlopeSums() {
 #pragma GCC unroll 3
@@ -36,12 +36,14 @@ struct SlopeSums {
 /// What a neighbour adds to these sums. Virtual particles count where they carry a state.
 template <class Scheme, class T, bool wraps>
 struct SlopeTerm {
-  static constexpr int dim = Scheme::dim;
-  using Kernel = typename Scheme::Kernel;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  using Kernel = typename Scheme::Kernel;  ///< smoothing function of the scheme
 
+  /// Periodic axes, across which the nearest image counts.
   const geometry::Periodicity<dim, T>& space;
-  const particles::Record<dim, T>& a;
+  const particles::Record<dim, T>& a;  ///< the particle whose sums these are
 
+  /// Adds the neighbour b, or a pack of them, to the sums.
   template <class N>
   SPHMBS_INLINE void operator()(const particles::Record<dim, N>& b,
                                 const particles::Vicinity<dim, N>&, SlopeSums<dim, N>& sum) const {
@@ -83,15 +85,16 @@ struct SlopeTerm {
 /// none.
 template <class Scheme, class T, int lanes>
 struct EvaluateSlopes {
-  static constexpr int dim = Scheme::dim;
-  static constexpr int fields = sloping_fields<dim>;
+  static constexpr int dim = Scheme::dim;             ///< dimension of space
+  static constexpr int fields = sloping_fields<dim>;  ///< number of fields that have slopes
 
-  geometry::Periodicity<dim, T> space;
-  Gathered<T> from;
-  const std::uint8_t* set;
-  T* vicinities;
-  T border;  // how far particles see across periodic borders [m]
+  geometry::Periodicity<dim, T> space;  ///< periodic axes, across which the nearest image counts
+  Gathered<T> from;                     ///< neighbours, and what is known of them
+  const std::uint8_t* set;              ///< sets of all particles
+  T* vicinities;  ///< of all particles, see `particles::Vicinity`; null where the scheme needs none
+  T border;       ///< how far particles see across periodic borders [m]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     if (!Scheme::Wall::evolves && particles::is_virtual(set[i])) return;
     const auto a = particles::load_record<dim>(from.records, i);

@@ -19,11 +19,11 @@ namespace sphmbs::sph {
 /// State of a particle: what eqs. (27)-(29) step.
 template <int Dim, class T>
 struct Stepped {
-  Vec<Dim> r;  // in full
-  Vec<Dim, T> v;
-  T rho;
-  T e;
-  T h;
+  Vec<Dim> r;     ///< in full
+  Vec<Dim, T> v;  ///< [m/s]
+  T rho;          ///< [kg/m^3]
+  T e;            ///< [J/kg]
+  T h;            ///< [m]
 };
 
 /// y + scale k for gas; particles of openings alone move, see EvaluateOpening; for virtual
@@ -31,14 +31,15 @@ struct Stepped {
 /// those that carry no state keep their mass, so that their volume follows the solid's.
 template <class Scheme, class T, class Motion>
 struct Advance {
-  static constexpr int Dim = Scheme::dim;
-  particles::FieldsView<Dim, T> fields;
-  particles::RatesView<Dim, T> rates;
-  Motion motion;
-  T scale;      // [s]
-  double time;  // of the state y [s]
-  double dt;    // [s]
+  static constexpr int Dim = Scheme::dim;  ///< dimension of space
+  particles::FieldsView<Dim, T> fields;    ///< of all particles
+  particles::RatesView<Dim, T> rates;      ///< of all particles
+  Motion motion;                           ///< of the virtual particles
+  T scale;                                 ///< [s]
+  double time;                             ///< of the state y [s]
+  double dt;                               ///< [s]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE Stepped<Dim, T> operator()(std::size_t i) const {
     Stepped<Dim, T> y{fields.place(i), fields.velocity(i), fields.rho[i], fields.e[i], fields.h[i]};
     const bool moves = !particles::is_virtual(fields.set[i]);
@@ -75,6 +76,7 @@ struct Advance {
             stretch(i) * fields.depth[i]};
   }
 
+  /// By which the motion knows particle i.
   SPHMBS_INLINE boundary::Mark mark(std::size_t i) const { return {fields.set[i], fields.id[i]}; }
 
   /// Ratio of lengths of the solid that a virtual particle belongs to, time + dt to time.
@@ -83,14 +85,16 @@ struct Advance {
   }
 };
 
+/// What stands for no particle.
 inline constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 /// What one update may do to a particle; an update that does more is not made.
 struct Admission {
-  double least = 0.02;  // share of density and of smoothing length that it leaves [-]
-  double fastest = std::numeric_limits<double>::infinity();  // speed of gas [m/s]
+  double least = 0.02;  ///< share of density and of smoothing length that it leaves [-]
+  double fastest = std::numeric_limits<double>::infinity();  ///< speed of gas [m/s]
 };
 
+/// Whether a number is neither infinite nor NaN.
 template <class U>
 SPHMBS_INLINE bool is_finite(U x) {
   return math::abs(x) <= std::numeric_limits<U>::max();
@@ -111,14 +115,16 @@ SPHMBS_INLINE bool is_sound(const Stepped<Dim, T>& y, T c) {
 /// spreads to the neighbours.
 template <class Scheme, class T, class Motion>
 struct WriteRecords {
-  static constexpr int dim = Scheme::dim;
-  Advance<Scheme, T, Motion> advance;
-  Scheme scheme;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  Advance<Scheme, T, Motion> advance;      ///< leads to the state of the stage
+  Scheme scheme;                           ///< with the numbers of its policies
+  /// Periodic axes, across which the nearest image counts.
   geometry::Periodicity<dim, double> space;
-  T* records;
-  T* vicinities;
-  std::uint32_t* culprit;
+  T* records;     ///< of all particles, see `particles::Record`
+  T* vicinities;  ///< of all particles, see `particles::Vicinity`; null where the scheme needs none
+  std::uint32_t* culprit;  ///< lowest id of a particle whose state is none
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const Stepped<dim, T> y = advance(i);
     const T p = scheme.eos.pressure(y.rho, y.e);
@@ -182,10 +188,12 @@ std::uint32_t culprit_of(const Body& body, execution::Field<std::uint32_t, Polic
 /// the periodic box.
 template <class Scheme, class T, class Motion>
 struct CommitStep {
-  static constexpr int dim = Scheme::dim;
-  Advance<Scheme, T, Motion> advance;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  Advance<Scheme, T, Motion> advance;      ///< leads to the state of the stage
+  /// Periodic axes, across which the nearest image counts.
   geometry::Periodicity<dim, double> space;
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     const Stepped<dim, T> y = advance(i);
@@ -204,7 +212,8 @@ struct CommitStep {
 
 /// The longest of some ways [m].
 struct Surplus {
-  double length = 0;
+  double length = 0;  ///< [m]
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Surplus& o) { length = math::max(length, o.length); }
 };
 
@@ -212,10 +221,12 @@ struct Surplus {
 /// velocity that gas meets at its beginning, the growth of its support included.
 template <class Scheme, class T, class Motion>
 struct MotionSurplus {
-  static constexpr int dim = Scheme::dim;
-  Advance<Scheme, T, Motion> advance;
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  Advance<Scheme, T, Motion> advance;      ///< leads to the state of the stage
+  /// Periodic axes, across which the nearest image counts.
   geometry::Periodicity<dim, double> space;
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE Surplus operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     if (!particles::is_virtual(fields.set[i])) return {};

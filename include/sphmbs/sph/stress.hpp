@@ -13,12 +13,13 @@ namespace sphmbs::sph {
 
 /// No stress and no conduction, as in the paper's cases.
 struct Inviscid {
-  static constexpr bool acts = false;
+  static constexpr bool acts = false;  ///< whether there is any stress or conduction
   /// Largest diffusivity of momentum or heat at a density [m^2/s].
   template <class E>
   double diffusivity(const E&, double) const {
     return 0;
   }
+  /// Does nothing: no parameter can be out of range.
   void check() const {}
 };
 
@@ -33,10 +34,10 @@ struct Inviscid {
 /// viscosity zeta. The paper's virtual particles act as walls of their own temperature that gas
 /// sticks to. Angular momentum is conserved by the second term alone.
 struct Newtonian {
-  static constexpr bool acts = true;
-  double viscosity;         // mu [Pa s]
-  double conductivity = 0;  // k [W/(m K)]
-  double bulk = 0;          // zeta [Pa s]
+  static constexpr bool acts = true;  ///< whether there is any stress or conduction
+  double viscosity;                   ///< mu [Pa s]
+  double conductivity = 0;            ///< k [W/(m K)]
+  double bulk = 0;                    ///< zeta [Pa s]
 
   /// What b takes from the acceleration of a [m/s^2].
   /// @param share  m_b F / (rho_a rho_b)

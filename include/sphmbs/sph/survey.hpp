@@ -14,9 +14,10 @@ namespace sphmbs::sph {
 
 /// Smallest value of a limit on the step, and the particle that sets it.
 struct Limit {
-  double dt = std::numeric_limits<double>::infinity();  // [s]
-  std::uint32_t id = 0;
+  double dt = std::numeric_limits<double>::infinity();  ///< [s]
+  std::uint32_t id = 0;                                 ///< of the particle
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Limit& other) {
     const bool sooner = other.dt < dt || (other.dt == dt && other.id < id);
     dt = sooner ? other.dt : dt;
@@ -27,23 +28,27 @@ struct Limit {
 /// What is learnt from one evaluation of the rates.
 template <int Dim>
 struct Survey {
+  /// Smallest components of any particle's velocity [m/s].
   Vec<Dim> slowest = Vec<Dim>::all(std::numeric_limits<double>::infinity());
+  /// Largest components of any particle's velocity [m/s].
   Vec<Dim> fastest = Vec<Dim>::all(-std::numeric_limits<double>::infinity());
-  double h_rate = 0;         // largest rate of change of h [m/s]
-  std::uint64_t pairs = 0;   // ordered pairs inside the support
-  std::uint64_t falls = 0;   // of them those whose reconstruction was refused
-  Vec<Dim> wall_force = {};  // of the gas on all virtual particles and openings [N]
-  double wall_power = 0;     // of the gas on virtual particles and openings, sum f.v [W]
-  double layer_power = 0;    // see RatesView; of openings heating too [W]
-  Vec<Dim> momentum = {};    // of the gas at this stage [kg m/s]
-  Limit courant;             // h / (c + h |div v|)
-  Limit acceleration;        // sqrt(h / |a|)
-  Limit diffusion;           // h^2 / (2 nu)
+  double h_rate = 0;         ///< largest rate of change of h [m/s]
+  std::uint64_t pairs = 0;   ///< ordered pairs inside the support
+  std::uint64_t falls = 0;   ///< of them those whose reconstruction was refused
+  Vec<Dim> wall_force = {};  ///< of the gas on all virtual particles and openings [N]
+  double wall_power = 0;     ///< of the gas on virtual particles and openings, sum f.v [W]
+  double layer_power = 0;    ///< see RatesView; of openings heating too [W]
+  Vec<Dim> momentum = {};    ///< of the gas at this stage [kg m/s]
+  Limit courant;             ///< h / (c + h |div v|)
+  Limit acceleration;        ///< sqrt(h / |a|)
+  Limit diffusion;           ///< h^2 / (2 nu)
   /// Lowest id among particles with a rate that is not finite; the extremes above pass over a NaN.
   std::uint32_t sick = std::numeric_limits<std::uint32_t>::max();
 
+  /// Whether there is such a particle.
   bool is_sick() const { return sick != std::numeric_limits<std::uint32_t>::max(); }
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Survey& o) {
     sick = o.sick < sick ? o.sick : sick;
     for (int k = 0; k < Dim; ++k) {
@@ -75,13 +80,14 @@ struct Survey {
 /// What a particle contributes to the survey.
 template <class Scheme, class T>
 struct SurveyParticle {
-  static constexpr int dim = Scheme::dim;
-  Scheme scheme;
-  particles::FieldsView<dim, T> fields;
-  particles::RatesView<dim, T> rates;
-  const T* records;
-  double share;  // of one evaluation in the rates, which are a weighted sum of several [-]
+  static constexpr int dim = Scheme::dim;  ///< dimension of space
+  Scheme scheme;                           ///< with the numbers of its policies
+  particles::FieldsView<dim, T> fields;    ///< of all particles
+  particles::RatesView<dim, T> rates;      ///< of all particles
+  const T* records;                        ///< of all particles, see `particles::Record`
+  double share;  ///< of one evaluation in the rates, which are a weighted sum of several [-]
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE Survey<dim> operator()(std::size_t i) const {
     const particles::Record<dim, T> s = particles::load_record<dim>(records, i);
     const std::uint32_t id = fields.id[i];
@@ -133,9 +139,9 @@ struct SurveyParticle {
 
 /// The length of the next step and why it is no longer.
 struct StepLimit {
-  double dt;                // [s]
-  std::string_view reason;  // "sound", "acceleration", "diffusion" or "fixed"
-  std::uint32_t id;         // of the particle that limits; 0 where none does
+  double dt;                ///< [s]
+  std::string_view reason;  ///< "sound", "acceleration", "diffusion" or "fixed"
+  std::uint32_t id;         ///< of the particle that limits; 0 where none does
 };
 
 /// cfl times the smallest of the limits.

@@ -43,7 +43,9 @@ class Vicinities {
 
   /// Null where the scheme needs none.
   T* data() { return stored_.data(); }
+  /// Slopes and surfaces of all particles, for loops; null where the scheme needs none.
   const T* data() const { return stored_.data(); }
+  /// Memory they take [bytes].
   std::size_t bytes() const { return stored_.bytes(); }
 
  private:

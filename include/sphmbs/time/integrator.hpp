@@ -20,13 +20,16 @@ concept ExplicitSystem = requires(S system, double s) {
 
 /// A stand-in for concepts.
 struct NoSystem {
+  ///@{ Does nothing.
   void stage(double, double) {}
   void rates(double) {}
   void commit(double, double) {}
+  ///@}
 };
 
 /// Likewise for the choice of a step.
 struct OneSecond {
+  /// 1 s.
   double operator()() const { return 1.0; }
 };
 

@@ -9,6 +9,7 @@ namespace sphmbs::time {
 /// with the rates at t, then step with the rates at the midpoint. Eqs. (28) and (29) together are
 /// y(t + dt) = y(t) + dt f(midpoint).
 struct PredictorCorrector {
+  /// Takes a step of length choose_step() [s], which it returns.
   template <ExplicitSystem S, class ChooseStep>
   double step(S& y, ChooseStep&& choose_step) const {
     y.stage(0, 0);

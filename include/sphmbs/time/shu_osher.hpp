@@ -7,6 +7,7 @@ namespace sphmbs::time {
 
 /// Shu and Osher's three-stage method of third order, which preserves strong stability (1988).
 struct ShuOsher {
+  /// Takes a step of length choose_step() [s], which it returns.
   template <ExplicitSystem S, class ChooseStep>
   double step(S& y, ChooseStep&& choose_step) const {
     y.stage(0, 0);

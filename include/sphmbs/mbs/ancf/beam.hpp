@@ -49,19 +49,22 @@ namespace sphmbs::mbs::ancf {
 /// Internal damping is Kelvin and Voigt's: each e_k counts as e_k + damping * de_k/dt in the
 /// stress.
 struct Beam {
-  static constexpr std::string_view label = "beam";
-  static constexpr int dim = 3, nodes = 2, node_dofs = 12, dofs = 24;
-  static constexpr int drawn = 1;
-  using Material = Vector<3>;
+  static constexpr std::string_view label = "beam";  ///< what messages call it
+  static constexpr int dim = 3;                      ///< dimension of space
+  static constexpr int nodes = 2;                    ///< one at either end
+  static constexpr int node_dofs = 12;               ///< r and its three gradients
+  static constexpr int dofs = 24;                    ///< of both nodes  ///< dimension of space
+  static constexpr int drawn = 1;  ///< dimension of its picture: 1 a line, 2 a surface
+  using Material = Vector<3>;      ///< material coordinates of a point, in its own frame [m]
 
-  double length = 0;                  // unstretched [m]
-  double width = 0;                   // along y [m]
-  double height = 0;                  // along z [m]
-  double density = 0;                 // [kg/m^3]
-  double youngs_modulus = 0;          // E [Pa]
-  double poisson_ratio = 0.3;         // nu [-]
-  double shear_correction = 5.0 / 6;  // k [-]
-  double damping = 0;                 // relaxation time of Kelvin and Voigt [s]
+  double length = 0;                  ///< unstretched [m]
+  double width = 0;                   ///< along y [m]
+  double height = 0;                  ///< along z [m]
+  double density = 0;                 ///< [kg/m^3]
+  double youngs_modulus = 0;          ///< E [Pa]
+  double poisson_ratio = 0.3;         ///< nu [-]
+  double shear_correction = 5.0 / 6;  ///< k [-]
+  double damping = 0;                 ///< relaxation time of Kelvin and Voigt [s]
 
   /// @throws InvalidInput unless -1 < nu < 0.5, damping is not negative and the others are
   /// positive.
@@ -78,10 +81,10 @@ struct Beam {
     expects(std::isfinite(damping) && damping >= 0, "damping", damping, "zero or positive [s]");
   }
 
-  double area() const { return width * height; }                                     // [m^2]
-  double second_moment_y() const { return area() * height * height / 12; }           // of z^2 [m^4]
-  double second_moment_z() const { return area() * width * width / 12; }             // of y^2 [m^4]
-  double shear_modulus() const { return youngs_modulus / (2 + 2 * poisson_ratio); }  // G [Pa]
+  double area() const { return width * height; }                            ///< [m^2]
+  double second_moment_y() const { return area() * height * height / 12; }  ///< of z^2 [m^4]
+  double second_moment_z() const { return area() * width * width / 12; }    ///< of y^2 [m^4]
+  double shear_modulus() const { return youngs_modulus / (2 + 2 * poisson_ratio); }  ///< G [Pa]
 
   /// M = density * integral of N^T N dV, exact.
   Matrix<dofs, dofs> mass_matrix() const {
@@ -99,8 +102,11 @@ struct Beam {
     return M;
   }
 
+  /// The point of the axis at arc coordinate x [m].
   static Material on_axis(double x) { return {x, 0, 0}; }
+  /// The point of the axis at the first node.
   Material start() const { return on_axis(0); }
+  /// The point of the axis at the second node.
   Material end() const { return on_axis(length); }
   /// Where to draw: s from 0 to 1 runs along the axis.
   Material outline(double s) const { return on_axis(s * length); }
@@ -113,6 +119,7 @@ struct Beam {
     return shape_matrix<3>(std::array{h[0], h[1], X[1] * left, X[2] * left,  //
                                       h[2], h[3], X[1] * right, X[2] * right});
   }
+  /// dN/dX_k at X.
   Matrix<3, dofs> shape_gradient(const Material& X, int k) const {
     const double xi = X[0] / length;
     if (k == 1) return shape_matrix<3>(std::array{0., 0., 1 - xi, 0., 0., 0., xi, 0.});
@@ -127,6 +134,7 @@ struct Beam {
     return shape_matrix<3>(std::array{h[0], h[1], 0., 0., h[2], h[3], 0., 0.});
   }
 
+  /// As `Part` asks.
   static Matrix<dofs, 3> translation() {
     Matrix<dofs, 3> T = Matrix<dofs, 3>::Zero();
     T.topRows<3>().setIdentity();

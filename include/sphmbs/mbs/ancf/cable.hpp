@@ -35,16 +35,20 @@ namespace sphmbs::mbs::ancf {
 template <int Dim, StrainMeasure Measure = Green>
 struct Cable {
   static_assert(Dim == 2 || Dim == 3);
-  static constexpr std::string_view label = "cable";
-  static constexpr int dim = Dim, nodes = 2, node_dofs = 2 * Dim, dofs = 4 * Dim;
-  static constexpr int drawn = 1;
-  using Material = Vector<1>;
+  static constexpr std::string_view label = "cable";  ///< what messages call it
+  /// Dimension of space.
+  static constexpr int dim = Dim;            ///< dimension of space
+  static constexpr int nodes = 2;            ///< one at either end
+  static constexpr int node_dofs = 2 * Dim;  ///< r and r'
+  static constexpr int dofs = 4 * Dim;       ///< of both nodes
+  static constexpr int drawn = 1;            ///< dimension of its picture: 1 a line, 2 a surface
+  using Material = Vector<1>;  ///< material coordinates of a point, in its own frame [m]
 
-  double length = 0;             // unstretched [m]
-  double axial_stiffness = 0;    // EA [N]
-  double bending_stiffness = 0;  // EI [N m^2]
-  double mass_per_length = 0;    // [kg/m]
-  double damping = 0;            // relaxation time of Kelvin and Voigt [s]
+  double length = 0;             ///< unstretched [m]
+  double axial_stiffness = 0;    ///< EA [N]
+  double bending_stiffness = 0;  ///< EI [N m^2]
+  double mass_per_length = 0;    ///< [kg/m]
+  double damping = 0;            ///< relaxation time of Kelvin and Voigt [s]
 
   /// EA = E pi R^2, EI = E pi R^4/4, mass per length rho pi R^2.
   static Cable of(double length, const CircularSection& section, double damping = 0) {
@@ -78,17 +82,23 @@ struct Cable {
     return M;
   }
 
+  /// The point at arc coordinate x [m].
   static Material on_axis(double x) { return Material(x); }
+  /// The point at the first node.
   Material start() const { return on_axis(0); }
+  /// The point at the second node.
   Material end() const { return on_axis(length); }
   /// Where to draw: s from 0 to 1 runs from start to end.
   Material outline(double s) const { return on_axis(s * length); }
 
   /// r = N q, r' = shape_gradient(X, 0) q, r'' = shape_curvature(X) q.
   Matrix<Dim, dofs> shape(const Material& X) const { return derivative<0>(X); }
+  /// dN/dx at X; r' = dN/dx q.
   Matrix<Dim, dofs> shape_gradient(const Material& X, int /*k*/) const { return derivative<1>(X); }
+  /// d2N/dx2 at X; r'' = d2N/dx2 q.
   Matrix<Dim, dofs> shape_curvature(const Material& X) const { return derivative<2>(X); }
 
+  /// As `Part` asks.
   static Matrix<dofs, Dim> translation() {
     Matrix<dofs, Dim> T = Matrix<dofs, Dim>::Zero();
     T.template topRows<Dim>().setIdentity();
@@ -105,6 +115,7 @@ struct Cable {
   double axial_strain(const Vector<dofs>& q, const Material& X) const {
     return ancf::axial_strain<Measure, Dim, double>(derivative<1>(X) * q).value;
   }
+  /// Kappa at X, as Measure has it [1/m].
   double curvature(const Vector<dofs>& q, const Material& X) const {
     Vector<2 * Dim> g;
     g << derivative<1>(X) * q, derivative<2>(X) * q;

@@ -22,10 +22,12 @@ namespace sphmbs::mbs::ancf {
 /// from 0 to length() and to width().
 template <class P>
 struct Grid {
-  Raster raster;                    // where it was added
-  std::vector<Placed<P>> elements;  // row by row: x first
+  Raster raster;                    ///< where it was added
+  std::vector<Placed<P>> elements;  ///< row by row: x first
 
+  /// Along the first axis, undeformed [m].
   double length() const { return raster.count[0] * raster.cell[0]; }
+  /// Along the second axis, undeformed [m].
   double width() const { return raster.count[1] * raster.cell[1]; }
 
   /// Element in column i and row j, from 0.
@@ -87,14 +89,14 @@ struct Grid {
 /// A flat rectangle of equal, unstressed plate elements anywhere in space.
 template <class P = Plate36>
 struct GridSpec {
-  Vector<3> origin = Vector<3>::Zero();            // corner (0, 0) [m]
-  Vector<3> edge_x = Vector<3>::Zero();            // from there along x: length and direction [m]
-  Vector<3> edge_y = Vector<3>::Zero();            // along y, orthogonal to edge_x [m]
-  std::array<int, 2> elements = {1, 1};            // along x and y
-  P plate = {};                                    // of every element; its sizes are set here
-  Vector<3> velocity = Vector<3>::Zero();          // of the origin [m/s]
-  Vector<3> angular_velocity = Vector<3>::Zero();  // about the origin [rad/s]
-  const Grid<P>* beside = nullptr;  // in the same plane: nodes in the same place are shared
+  Vector<3> origin = Vector<3>::Zero();            ///< corner (0, 0) [m]
+  Vector<3> edge_x = Vector<3>::Zero();            ///< from there along x: length and direction [m]
+  Vector<3> edge_y = Vector<3>::Zero();            ///< along y, orthogonal to edge_x [m]
+  std::array<int, 2> elements = {1, 1};            ///< along x and y
+  P plate = {};                                    ///< of every element; its sizes are set here
+  Vector<3> velocity = Vector<3>::Zero();          ///< of the origin [m/s]
+  Vector<3> angular_velocity = Vector<3>::Zero();  ///< about the origin [rad/s]
+  const Grid<P>* beside = nullptr;  ///< in the same plane: nodes in the same place are shared
 };
 
 namespace detail {

@@ -22,16 +22,16 @@ namespace sphmbs::mbs::ancf {
 /// The elements of a line in a structure, in order from its start to its end.
 template <LineElement E>
 struct Line {
-  static constexpr int dim = E::dim;
+  static constexpr int dim = E::dim;  ///< dimension of space
 
   /// Place on the line: x [m] on an element.
   struct Place {
-    int element;
-    double x;
+    int element;  ///< which one, counted from 0 at the start of the line
+    double x;     ///< arc coordinate in that element [m]
   };
 
-  std::vector<Placed<E>> elements;
-  double length;  // unstretched [m]
+  std::vector<Placed<E>> elements;  ///< from the start of the line to its end
+  double length;                    ///< unstretched [m]
 
   /// Where s is, from 0 at the start to length at the end. At a border it is the element that
   /// begins there; beyond the ends, the first or the last one, with x outside of it.
@@ -48,12 +48,15 @@ struct Line {
     const Place place = on_line(s);
     return at(place).point(E::on_axis(place.x));
   }
+  /// r' at arc coordinate s [m] of the line: a vector that moves with it.
   Marker<dim> gradient(double s) const {
     const Place place = on_line(s);
     return at(place).gradient(E::on_axis(place.x), 0);
   }
 
+  /// The point at s = 0.
   Marker<dim> start() const { return elements.front().start(); }
+  /// The point at the end of the line.
   Marker<dim> end() const { return elements.back().end(); }
 
  private:

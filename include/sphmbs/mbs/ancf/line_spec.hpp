@@ -23,7 +23,9 @@ concept LineElement = Element<E> && requires(E element, double x) {
 /// unstretched line, from 0 to its length.
 template <int Dim>
 struct AlongLine {
+  /// The vector at s.
   std::function<Vector<Dim>(double s)> value = {};
+  /// Its derivative by s.
   std::function<Vector<Dim>(double s)> gradient = {};
 };
 
@@ -34,17 +36,18 @@ struct AlongLine {
 ///   2e11}
 template <LineElement E>
 struct LineSpec {
-  static constexpr int dim = E::dim;
+  static constexpr int dim = E::dim;  ///< dimension of space
+  /// Angular velocity: a number in the plane, a vector in space [rad/s].
   using Spin = std::conditional_t<dim == 2, double, Vector<3>>;
 
-  Vector<dim> from = Vector<dim>::Zero();  // [m]
-  Vector<dim> to = Vector<dim>::Zero();    // [m]
-  int elements = 0;
+  Vector<dim> from = Vector<dim>::Zero();  ///< [m]
+  Vector<dim> to = Vector<dim>::Zero();    ///< [m]
+  int elements = 0;                        ///< how many, all of equal length
 
-  double radius = 0;          // of a cable with circular section [m]
-  double density = 0;         // [kg/m^3]
-  double youngs_modulus = 0;  // [Pa]
-  double damping = 0;         // relaxation time of Kelvin and Voigt [s]
+  double radius = 0;          ///< of a cable with circular section [m]
+  double density = 0;         ///< [kg/m^3]
+  double youngs_modulus = 0;  ///< [Pa]
+  double damping = 0;         ///< relaxation time of Kelvin and Voigt [s]
   /// In place of these four: an element like the ones to make; its length is not read.
   std::optional<E> prototype = {};
 
@@ -58,8 +61,9 @@ struct LineSpec {
 
   /// Rates at the start add up: those of a rigid motion, the spin being about the start of the
   /// line,
-  Vector<dim> velocity = Vector<dim>::Zero();  // [m/s]
-  Spin angular_velocity = [] {                 // [rad/s]
+  Vector<dim> velocity = Vector<dim>::Zero();  ///< [m/s]
+  /// [rad/s]
+  Spin angular_velocity = [] {
     if constexpr (dim == 2)
       return 0.0;
     else
@@ -69,7 +73,8 @@ struct LineSpec {
   AlongLine<dim> rates = {};
 
   /// Nodes that exist already, of this shape, to begin and to end with.
-  std::optional<Node> first_node = {}, last_node = {};
+  std::optional<Node> first_node = {};  ///< node of the structure to start at, else a new one
+  std::optional<Node> last_node = {};   ///< node of the structure to end at, else a new one
   /// Whether the last element ends at the node where the first begins; needs a curve.
   bool closed = false;
 };

@@ -35,21 +35,22 @@ namespace sphmbs::mbs::ancf {
 /// parallel.
 template <class Shape = Acm>
 struct Plate {
-  using Material = Vector<2>;  // x in [0, length], y in [0, width] [m]
-  static constexpr std::string_view label = "plate";
-  static constexpr int dim = 3;
-  static constexpr int nodes = 4;
+  using Material = Vector<2>;                         ///< x in [0, length], y in [0, width] [m]
+  static constexpr std::string_view label = "plate";  ///< what messages call it
+  static constexpr int dim = 3;                       ///< dimension of space
+  static constexpr int nodes = 4;                     ///< one at each corner
+  /// r and its gradients, as the family has it.
   static constexpr int node_dofs = 3 * Shape::node_functions;
-  static constexpr int dofs = nodes * node_dofs;
-  static constexpr int drawn = 2;
+  static constexpr int dofs = nodes * node_dofs;  ///< all its coordinates, node by node
+  static constexpr int drawn = 2;  ///< dimension of its picture: 1 a line, 2 a surface
 
-  double length = 0;           // along x [m]
-  double width = 0;            // along y [m]
-  double thickness = 0;        // [m]
-  double density = 0;          // [kg/m^3]
-  double youngs_modulus = 0;   // [Pa]
-  double poisson_ratio = 0.3;  // [-]
-  double damping = 0;          // tau, relaxation time of Kelvin and Voigt [s]
+  double length = 0;           ///< along x [m]
+  double width = 0;            ///< along y [m]
+  double thickness = 0;        ///< [m]
+  double density = 0;          ///< [kg/m^3]
+  double youngs_modulus = 0;   ///< [Pa]
+  double poisson_ratio = 0.3;  ///< [-]
+  double damping = 0;          ///< tau, relaxation time of Kelvin and Voigt [s]
 
   /// @throws InvalidInput unless sizes, density and Young's modulus are positive, Poisson's ratio
   /// is above -1 and below 0.5, and the damping is not negative; all finite.
@@ -73,6 +74,7 @@ struct Plate {
   }
   /// Derivative of N in x and y.
   Matrix<3, dofs> shape_twist(const Material& X) const { return functions(X, 1, 1); }
+  /// As `Part` asks.
   static Matrix<dofs, 3> translation() {
     Matrix<dofs, 3> T = Matrix<dofs, 3>::Zero();
     for (int i = 0; i < nodes; ++i) T.template middleRows<3>(i * node_dofs).setIdentity();

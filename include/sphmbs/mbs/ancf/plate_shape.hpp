@@ -44,7 +44,7 @@ struct LineFunctions {
 /// Pogorelov (2003) take for the thin plate with r, r_x, r_y at its nodes. The surface is
 /// continuous between elements; its normal is continuous at nodes and along edges only nearly so.
 struct Acm {
-  static constexpr int node_functions = 3;  // of r, r_x, r_y
+  static constexpr int node_functions = 3;  ///< of r, r_x, r_y
 
   /// Function f of the node at the ends i, j of the unit square, differentiated ds and dt times.
   static constexpr double value(int f, int i, int j, double s, double t, int ds, int dt) {
@@ -58,7 +58,7 @@ struct Acm {
 /// Bicubic Hermite polynomials (Bogner, Fox and Schmit 1965) for plates with r, r_x, r_y, r_xy at
 /// their nodes: the surface and its normal are continuous.
 struct Bicubic {
-  static constexpr int node_functions = 4;  // of r, r_x, r_y, r_xy
+  static constexpr int node_functions = 4;  ///< of r, r_x, r_y, r_xy
 
   /// As Acm::value.
   static constexpr double value(int f, int i, int j, double s, double t, int ds, int dt) {
@@ -71,9 +71,11 @@ struct Bicubic {
 /// (0, 1), as r, r_s, r_t (and r_st) at the node ask for.
 template <class Shape>
 struct PlateFunctions {
-  static constexpr int size = 4 * Shape::node_functions;
-  static constexpr std::array<int, 4> node_i = {0, 1, 1, 0}, node_j = {0, 0, 1, 1};
+  static constexpr int size = 4 * Shape::node_functions;      ///< number of functions
+  static constexpr std::array<int, 4> node_i = {0, 1, 1, 0};  ///< s of the nodes
+  static constexpr std::array<int, 4> node_j = {0, 0, 1, 1};  ///< t of the nodes
 
+  /// Function k at (s, t), or its derivative of order ds in s and dt in t.
   static constexpr double value(int k, double s, double t, int ds = 0, int dt = 0) {
     const auto node = static_cast<std::size_t>(k / Shape::node_functions);
     return Shape::value(k % Shape::node_functions, node_i[node], node_j[node], s, t, ds, dt);
@@ -84,14 +86,17 @@ struct PlateFunctions {
 /// the family, the same for all elements. Points are the fastest index, for packs of them.
 template <class Shape, int n>
 struct PlateTable {
-  static constexpr int functions = PlateFunctions<Shape>::size;
-  static constexpr int points = n * n;
-  static constexpr int derivatives = 5;  // d/ds, d/dt, dss, dtt, dst
-  static constexpr std::array<int, 5> ds = {1, 0, 2, 0, 1}, dt = {0, 1, 0, 2, 1};
+  static constexpr int functions = PlateFunctions<Shape>::size;  ///< number of functions
+  static constexpr int points = n * n;                           ///< of the Gauss rule
+  static constexpr int derivatives = 5;                          ///< d/ds, d/dt, dss, dtt, dst
+  static constexpr std::array<int, 5> ds = {1, 0, 2, 0, 1};      ///< orders of derivatives in s
+  static constexpr std::array<int, 5> dt = {0, 1, 0, 2, 1};      ///< orders of derivatives in t
 
-  using AtPoints = detail::Array<double, points>;
-  alignas(64) AtPoints weight = {};  // sum 1
+  using AtPoints = detail::Array<double, points>;  ///< a number for each point of the rule
+  alignas(64) AtPoints weight = {};                ///< sum 1
+  /// Of the functions.
   alignas(64) detail::Array<AtPoints, functions> value = {};
+  /// Of the functions, in the order of `ds` and `dt`.
   alignas(64) detail::Array<AtPoints, functions> derivative[derivatives] = {};
 
   constexpr PlateTable() {
@@ -113,6 +118,7 @@ struct PlateTable {
     for (int p = 0; p < points; ++p) sum += weight[p] * value[k][p];
     return sum;
   }
+  /// Integral over the unit square of functions k and l, multiplied.
   constexpr double integral(int k, int l) const {
     double sum = 0;
     for (int p = 0; p < points; ++p) sum += weight[p] * (value[k][p] * value[l][p]);

@@ -10,8 +10,10 @@ namespace sphmbs::mbs::ancf {
 /// to 1.
 template <int N>
 struct GaussRule {
-  static constexpr int size = N;
+  static constexpr int size = N;  ///< number of points
+  /// In (0, 1).
   std::array<double, static_cast<std::size_t>(N)> point;
+  /// Sum 1.
   std::array<double, static_cast<std::size_t>(N)> weight;
 };
 

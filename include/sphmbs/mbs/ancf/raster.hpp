@@ -11,11 +11,12 @@ namespace sphmbs::mbs::ancf {
 
 /// Rectangle of count[0] x count[1] equal cells in space, with nodes (i, j) at their corners.
 struct Raster {
-  Vector<3> origin;          // node (0, 0) [m]
-  Matrix<3, 2> axes;         // orthogonal unit vectors along x and y
-  Vector<2> cell;            // sides of a cell [m]
-  std::array<int, 2> count;  // of cells
+  Vector<3> origin;          ///< node (0, 0) [m]
+  Matrix<3, 2> axes;         ///< orthogonal unit vectors along x and y
+  Vector<2> cell;            ///< sides of a cell [m]
+  std::array<int, 2> count;  ///< of cells
 
+  /// Place of node (i, j), undeformed [m].
   Vector<3> node(int i, int j) const { return origin + axes * Vector<2>(i * cell[0], j * cell[1]); }
 
   /// Whether a point is on the rectangle.
@@ -35,6 +36,7 @@ struct Raster {
     return std::array{static_cast<int>(nearest[0]), static_cast<int>(nearest[1])};
   }
 
+  /// Calls visit(i, j) for all nodes, i fastest.
   template <class Visit>
   void for_each_node(Visit&& visit) const {
     for (int j = 0; j <= count[1]; ++j)

@@ -9,12 +9,12 @@ namespace sphmbs::mbs::ancf {
 
 /// Circular section of one material.
 struct CircularSection {
-  double radius = 0;          // [m]
-  double density = 0;         // [kg/m^3]
-  double youngs_modulus = 0;  // [Pa]
+  double radius = 0;          ///< [m]
+  double density = 0;         ///< [kg/m^3]
+  double youngs_modulus = 0;  ///< [Pa]
 
-  double area() const { return std::numbers::pi * radius * radius; }     // [m^2]
-  double second_moment() const { return area() * radius * radius / 4; }  // [m^4]
+  double area() const { return std::numbers::pi * radius * radius; }     ///< [m^2]
+  double second_moment() const { return area() * radius * radius / 4; }  ///< [m^4]
 };
 
 /// St Venant's torsion constant of a rectangle [m^4], to 1e-6: a b^3 (1/3 - 64/pi^5 (b/a) times the

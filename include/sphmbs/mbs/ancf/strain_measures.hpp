@@ -12,15 +12,19 @@ namespace sphmbs::mbs::ancf {
 /// A function of a = r'.r' with its first and second derivative.
 template <class S>
 struct Jet {
-  S value, first, second;
+  S value;   ///< of the function
+  S first;   ///< derivative by a
+  S second;  ///< derivative of that
 };
 
 /// Green's axial strain (r'.r' - 1)/2 and the geometric curvature |r' x r''|/|r'|^3: the measures
 /// of Gerstmayr and Shabana 2006. Five Gauss points for both terms.
 struct Green {
-  static constexpr int axial_points = 5, bending_points = 5;
-  static constexpr int curvature_power = 3;  // n in |r' x r''| / |r'|^n
+  static constexpr int axial_points = 5;     ///< Gauss points of the axial energy
+  static constexpr int bending_points = 5;   ///< Gauss points of the bending energy
+  static constexpr int curvature_power = 3;  ///< n in |r' x r''| / |r'|^n
 
+  /// Axial strain as a function of a = r'.r'.
   template <class S>
   static Jet<S> axial(const S& a) {
     return {0.5 * (a - 1.0), S(0.5), S(0.0)};
@@ -32,9 +36,11 @@ struct Green {
 /// conjugate to a geometrically exact beam without shear. Five Gauss points for the axial term and
 /// three for bending, as in Exudyn.
 struct Engineering {
-  static constexpr int axial_points = 5, bending_points = 3;
-  static constexpr int curvature_power = 2;
+  static constexpr int axial_points = 5;     ///< Gauss points of the axial energy
+  static constexpr int bending_points = 3;   ///< Gauss points of the bending energy
+  static constexpr int curvature_power = 2;  ///< n in |r' x r''| / |r'|^n
 
+  /// Axial strain as a function of a = r'.r'.
   template <class S>
   static Jet<S> axial(const S& a) {
     using std::sqrt;
@@ -57,8 +63,8 @@ static_assert(StrainMeasure<Green> && StrainMeasure<Engineering>);
 /// A strain as a function of gradients g, with its gradient in g.
 template <int n, class S>
 struct Strain {
-  S value;
-  Vector<n, S> gradient;
+  S value;                ///< of the strain
+  Vector<n, S> gradient;  ///< by the components of g
 };
 
 /// Axial strain as a function of g = r'.

@@ -18,18 +18,19 @@ namespace sphmbs::mbs::forces {
 /// opposite and equal.
 template <int Dim>
 struct Bushing {
-  static constexpr int turns = Dim == 2 ? 1 : 3;  // about how many axes
+  static constexpr int turns = Dim == 2 ? 1 : 3;  ///< about how many axes
 
-  Frame<Dim> from = joints::ground_frame<Dim>(Vector<Dim>::Zero());  // A
-  Frame<Dim> to = joints::ground_frame<Dim>(Vector<Dim>::Zero());    // B
-  Vector<Dim> stiffness = Vector<Dim>::Zero();                       // k [N/m]
-  Vector<turns> rotational_stiffness = Vector<turns>::Zero();        // kr [N m/rad]
-  Vector<Dim> damping = Vector<Dim>::Zero();                         // [N s/m]
-  Vector<turns> rotational_damping = Vector<turns>::Zero();          // [N m s/rad]
-  Vector<Dim> rest = Vector<Dim>::Zero();                            // [m]
-  std::string label = "bushing";
-  Marker<Dim*(2 * Dim + 1)> y = both_frames(from, to);  // follows from the others
+  Frame<Dim> from = joints::ground_frame<Dim>(Vector<Dim>::Zero());  ///< A
+  Frame<Dim> to = joints::ground_frame<Dim>(Vector<Dim>::Zero());    ///< B
+  Vector<Dim> stiffness = Vector<Dim>::Zero();                       ///< k [N/m]
+  Vector<turns> rotational_stiffness = Vector<turns>::Zero();        ///< kr [N m/rad]
+  Vector<Dim> damping = Vector<Dim>::Zero();                         ///< [N s/m]
+  Vector<turns> rotational_damping = Vector<turns>::Zero();          ///< [N m s/rad]
+  Vector<Dim> rest = Vector<Dim>::Zero();                            ///< [m]
+  std::string label = "bushing";                        ///< name in messages and reports
+  Marker<Dim*(2 * Dim + 1)> y = both_frames(from, to);  ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
 
@@ -64,6 +65,7 @@ struct Bushing {
     const Strains rate = jacobian(now) * velocity;
     return rate.cwiseAbs2().dot(coefficients(damping, rotational_damping));
   }
+  ///@}
 
   /// @throws InvalidInput for frames without vectors, a stiffness or damping below zero, or a rest
   ///         that is not finite.

@@ -14,34 +14,38 @@ namespace sphmbs::mbs::forces {
 /// Distance of a surface from a point, in the frame of the surface.
 template <int Dim>
 struct Distance {
-  double value;                // positive outside [m]
-  Vector<Dim> normal;          // outwards, its gradient
-  Matrix<Dim, Dim> curvature;  // its Hessian [1/m]
+  double value;                ///< positive outside [m]
+  Vector<Dim> normal;          ///< outwards, its gradient
+  Matrix<Dim, Dim> curvature;  ///< its Hessian [1/m]
 };
 
 /// The half space below the plane through the origin of a frame, across its last vector.
 template <int Dim>
 struct Plane {
-  static constexpr int dim = Dim;
+  static constexpr int dim = Dim;  ///< dimension of space
 
+  /// Of a point x, in the frame of the surface, with its derivatives.
   Distance<Dim> distance(const Vector<Dim>& x) const {
     return {x[Dim - 1], Vector<Dim>::Unit(Dim - 1), Matrix<Dim, Dim>::Zero()};
   }
+  /// @throws InvalidInput for a surface that is none.
   void check() const {}
 };
 
 /// The ball, in the plane the disc, around the origin of a frame.
 template <int Dim>
 struct Sphere {
-  static constexpr int dim = Dim;
-  double radius = 0;  // [m]
+  static constexpr int dim = Dim;  ///< dimension of space
+  double radius = 0;               ///< [m]
 
+  /// Of a point x, in the frame of the surface, with its derivatives.
   Distance<Dim> distance(const Vector<Dim>& x) const {
     const double length = x.norm();
     needs_direction(length, "sphere", "the line from its centre to the point in contact");
     const Direction<Dim> n(x, length);
     return {length - radius, n.along, n.slope};
   }
+  /// @throws InvalidInput for a surface that is none.
   void check() const {
     expects(std::isfinite(radius) && radius > 0, "radius of the sphere", radius, "positive [m]");
   }
@@ -59,19 +63,21 @@ struct Sphere {
 ///                                           .frame = forces::ground_frame<2>({0, 0}, {0, 1})};
 template <class Surface>
 struct Contact {
-  static constexpr int dim = Surface::dim;
+  static constexpr int dim = Surface::dim;  ///< dimension of space
 
-  Marker<dim> point = {};
-  double radius = 0;  // of the ball around the point [m]
-  Frame<dim> frame = joints::ground_frame<dim>(Vector<dim>::Zero());  // of the surface
-  Surface surface = {};
-  Penalty law = {};
-  double friction = 0;           // mu [-]
-  double creep_velocity = 1e-2;  // w0 [m/s]
-  std::string label = "contact";
+  Marker<dim> point = {};  ///< what touches the surface, or the centre of the ball that does
+  double radius = 0;       ///< of the ball around the point [m]
+  Frame<dim> frame = joints::ground_frame<dim>(Vector<dim>::Zero());  ///< of the surface
+  Surface surface = {};           ///< plane or sphere, in its frame
+  Penalty law = {};               ///< push along the normal
+  double friction = 0;            ///< mu [-]
+  double creep_velocity = 1e-2;   ///< w0 [m/s]
+  std::string label = "contact";  ///< name in messages and reports
+  /// Point and frame, on all their coordinates.
   Marker<RelativePosition<dim>::size> y =  // follows from the others
       RelativePosition<dim>::y(frame, point);
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
 
@@ -112,6 +118,7 @@ struct Contact {
     const Y now = y.local(q), velocity = y.N * v;
     return law_of(surface_at(now), RelativePosition<dim>::jacobian(now) * velocity).dissipation;
   }
+  ///@}
 
   /// @throws InvalidInput for a frame without vectors, a radius, stiffness, damping or friction
   /// below zero, an exponent outside [1, 3], or a sphere or creep velocity that is not positive.

@@ -18,18 +18,19 @@ namespace sphmbs::mbs::forces {
 /// shear against each other, as the directors of a beam's end do, take two couples of half the
 /// moment on (u, w) and on (w, u). With the second pair, another part takes -m.
 struct Couple {
-  static constexpr bool is_load = true;
-  static constexpr int dim = 3;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
+  static constexpr int dim = 3;          ///< dimension of space
 
-  Marker<3> u = {};
-  Marker<3> w = {};
-  Marker<3> against_u = {};  // takes the reaction; the ground does by default
-  Marker<3> against_w = {};
-  Vector<3> value = Vector<3>::Zero();            // m [N m]
-  std::function<Vector<3>(double)> history = {};  // m(t) [N m]; where given, in place of value
-  std::string label = "couple";
-  Marker<12> y = stacked(u, w, against_u, against_w);  // follows from the others
+  Marker<3> u = {};                     ///< a vector of the part
+  Marker<3> w = {};                     ///< another one, not along u
+  Marker<3> against_u = {};             ///< takes the reaction; the ground does by default
+  Marker<3> against_w = {};             ///< the second vector of what takes it
+  Vector<3> value = Vector<3>::Zero();  ///< m [N m]
+  std::function<Vector<3>(double)> history = {};  ///< m(t) [N m]; where given, in place of value
+  std::string label = "couple";                   ///< name in messages and reports
+  Marker<12> y = stacked(u, w, against_u, against_w);  ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
   Vector<3> load(double t) const { return history ? history(t) : value; }
@@ -50,8 +51,9 @@ struct Couple {
     add_tangent(y, K, k);
   }
 
-  double potential(VectorIn, double) const { return 0; }  // its work depends on the way
+  double potential(VectorIn, double) const { return 0; }  ///< its work depends on the way
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the couple is finite and the vectors are given in pairs.
   void check() const {

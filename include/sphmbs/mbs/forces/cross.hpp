@@ -15,9 +15,11 @@ inline Matrix<3, 3> skew(const Vector<3>& a) {
 /// A direction u / |u| and its derivative in u.
 template <int Dim>
 struct Direction {
-  Vector<Dim> along;
-  Matrix<Dim, Dim> slope;
+  Vector<Dim> along;       ///< the unit vector u/|u|
+  Matrix<Dim, Dim> slope;  ///< its derivative by u
 
+  /// @param u       a vector, not zero
+  /// @param length  its length
   Direction(const Vector<Dim>& u, double length)
       : along(u / length),
         slope((Matrix<Dim, Dim>::Identity() - along * along.transpose()) / length) {}

@@ -31,14 +31,15 @@ concept Pressable = Part<E> && requires(const E e, const Vector<E::dofs> q) {
 /// beam, per unstrained area of a plate.
 template <Loadable E>
 struct DistributedLoad {
-  static constexpr bool is_load = true;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
 
-  Placed<E> on;
-  Vector<E::dim> value = Vector<E::dim>::Zero();       // f [N/m] or [N/m^2]
-  std::function<Vector<E::dim>(double)> history = {};  // f(t); where given, in place of value
-  std::string label = "distributed load";
-  Index own = on.index();  // follows from the others
+  Placed<E> on;                                        ///< the loaded element
+  Vector<E::dim> value = Vector<E::dim>::Zero();       ///< f [N/m] or [N/m^2]
+  std::function<Vector<E::dim>(double)> history = {};  ///< f(t); where given, in place of value
+  std::string label = "distributed load";              ///< name in messages and reports
+  Index own = on.index();                              ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return own; }
 
@@ -51,6 +52,7 @@ struct DistributedLoad {
   bool conservative() const { return !history; }
   double potential(VectorIn q, double) const { return history ? 0.0 : -generalized(value).dot(q); }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the load is finite.
   void check() const {
@@ -70,14 +72,15 @@ struct DistributedLoad {
 /// where positive: Q = p int N^T (r_x x r_y) dx dy.
 template <Pressable E>
 struct FollowerPressure {
-  static constexpr bool is_load = true;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
 
-  Placed<E> on;
-  double value = 0;                            // p [Pa]
-  std::function<double(double)> history = {};  // p(t) [Pa]; where given, in place of value
-  std::string label = "follower pressure";
-  Index own = on.index();  // follows from the others
+  Placed<E> on;                                ///< the loaded element
+  double value = 0;                            ///< p [Pa]
+  std::function<double(double)> history = {};  ///< p(t) [Pa]; where given, in place of value
+  std::string label = "follower pressure";     ///< name in messages and reports
+  Index own = on.index();                      ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return own; }
   double pressure(double t) const { return history ? history(t) : value; }
@@ -91,6 +94,7 @@ struct FollowerPressure {
 
   double potential(VectorIn, double) const { return 0; }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the pressure is finite.
   void check() const { expects(std::isfinite(value), "value", value, "finite [Pa]"); }

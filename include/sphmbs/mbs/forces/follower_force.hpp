@@ -17,16 +17,17 @@ namespace sphmbs::mbs::forces {
 /// has no potential and its tangent is not symmetric.
 template <int Dim>
 struct FollowerForce {
-  static constexpr bool is_load = true;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
 
-  Marker<Dim> at = {};
-  Marker<Dim> along = {};                           // u
-  Marker<Dim> beside = {};                          // w; in space, and there only for F2 and F3
-  Vector<Dim> value = Vector<Dim>::Zero();          // F1, F2, F3 [N]
-  std::function<Vector<Dim>(double)> history = {};  // F(t) [N]; where given, in place of value
-  std::string label = "follower force";
-  Marker<3 * Dim> y = stacked(at, along, beside);  // follows from the others
+  Marker<Dim> at = {};                              ///< point of attack
+  Marker<Dim> along = {};                           ///< u
+  Marker<Dim> beside = {};                          ///< w; in space, and there only for F2 and F3
+  Vector<Dim> value = Vector<Dim>::Zero();          ///< F1, F2, F3 [N]
+  std::function<Vector<Dim>(double)> history = {};  ///< F(t) [N]; where given, in place of value
+  std::string label = "follower force";             ///< name in messages and reports
+  Marker<3 * Dim> y = stacked(at, along, beside);   ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
   Vector<Dim> load(double t) const { return history ? history(t) : value; }
@@ -45,6 +46,7 @@ struct FollowerForce {
 
   double potential(VectorIn, double) const { return 0; }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the force is finite and the vectors that it needs are given.
   void check() const {

@@ -70,8 +70,9 @@ void check(const Frame<Dim>& frame, const char* name) {
 /// to the point; bilinear in y = (d, a_1, ..., a_Dim).
 template <int Dim>
 struct RelativePosition {
-  static constexpr int size = Dim * (Dim + 1);
+  static constexpr int size = Dim * (Dim + 1);  ///< numbers in y
 
+  /// Vectors of the frame and the way of the point from its origin, as one marker.
   static Marker<size> y(const Frame<Dim>& frame, const Marker<Dim>& point) {
     const Marker<Dim> d = point - frame.origin;
     if constexpr (Dim == 2)
@@ -80,6 +81,7 @@ struct RelativePosition {
       return stacked(d, frame.vectors[0], frame.vectors[1], frame.vectors[2]);
   }
 
+  /// The place in the frame as a function of these [m].
   static Vector<Dim> value(const Vector<size>& y) { return 0.5 * jacobian(y) * y; }
 
   /// dzeta/dy. Linear in y: of dy/dt it is d(dzeta/dt)/dy.

@@ -13,18 +13,20 @@ namespace sphmbs::mbs::forces {
 /// V << 1 / a leaves with V (1 - 2/3 a V), for every p. With p > 1 its tangent is continuous, which
 /// Newton's method likes.
 struct Penalty {
-  double stiffness = 1e5;  // k [N/m^p]
-  double exponent = 1.5;   // p: 1 linear, 1.5 Hertz's spheres [-]
-  double damping = 0;      // a [s/m]
+  double stiffness = 1e5;  ///< k [N/m^p]
+  double exponent = 1.5;   ///< p: 1 linear, 1.5 Hertz's spheres [-]
+  double damping = 0;      ///< a [s/m]
 
+  /// The force and its derivatives.
   struct Push {
-    double force = 0;        // N [N]
-    double by_depth = 0;     // dN/d delta [N/m]
-    double by_rate = 0;      // dN/d delta' [N s/m]
-    double energy = 0;       // k delta^(p + 1) / (p + 1) [J]
-    double dissipation = 0;  // (N - k delta^p) delta' [W]
+    double force = 0;        ///< N [N]
+    double by_depth = 0;     ///< dN/d delta [N/m]
+    double by_rate = 0;      ///< dN/d delta' [N s/m]
+    double energy = 0;       ///< k delta^(p + 1) / (p + 1) [J]
+    double dissipation = 0;  ///< (N - k delta^p) delta' [W]
   };
 
+  /// At a depth [m] that grows at a rate [m/s]; nothing for a depth of zero or less.
   Push push(double depth, double rate) const {
     if (!(depth > 0)) return {};
     const double slope = stiffness * std::pow(depth, exponent - 1), spring = slope * depth;

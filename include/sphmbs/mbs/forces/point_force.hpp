@@ -13,13 +13,14 @@ namespace sphmbs::mbs::forces {
 /// coordinates (`coordinates({k})`) it is a generalized force.
 template <int Dim>
 struct PointForce {
-  static constexpr bool is_load = true;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
 
-  Marker<Dim> at = {};
-  Vector<Dim> value = Vector<Dim>::Zero();          // F [N]
-  std::function<Vector<Dim>(double)> history = {};  // F(t) [N]; where given, in place of value
-  std::string label = "point force";
+  Marker<Dim> at = {};                              ///< point of attack
+  Vector<Dim> value = Vector<Dim>::Zero();          ///< F [N]
+  std::function<Vector<Dim>(double)> history = {};  ///< F(t) [N]; where given, in place of value
+  std::string label = "point force";                ///< name in messages and reports
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return at.index; }
   Vector<Dim> load(double t) const { return history ? history(t) : value; }
@@ -31,6 +32,7 @@ struct PointForce {
   bool conservative() const { return !history; }
   double potential(VectorIn q, double) const { return history ? 0.0 : -value.dot(at.local(q)); }
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the force is finite and at a point that can move.
   void check() const {

@@ -14,25 +14,26 @@ namespace sphmbs::mbs::forces {
 
 /// What a user's law of a spring returns for a length l and its rate l'.
 struct Tension {
-  double force;            // T, pulls its ends together where positive [N]
-  double by_length;        // dT/dl [N/m]
-  double by_rate;          // dT/dl' [N s/m]
-  double energy = 0;       // stored [J]
-  double dissipation = 0;  // taken out [W]
+  double force;            ///< T, pulls its ends together where positive [N]
+  double by_length;        ///< dT/dl [N/m]
+  double by_rate;          ///< dT/dl' [N s/m]
+  double energy = 0;       ///< stored [J]
+  double dissipation = 0;  ///< taken out [W]
 };
 
 /// Spring and damper between two points: T = k (l - l0) + c l', along the line between them.
 template <int Dim>
 struct SpringDamper {
-  Marker<Dim> from = {};
-  Marker<Dim> to = {};
-  double stiffness = 0;                                              // k [N/m]
-  double damping = 0;                                                // c [N s/m]
-  double natural_length = std::numeric_limits<double>::quiet_NaN();  // l0 [m]
-  std::function<Tension(double, double)> law = {};  // T(l, l'); where given, in place of these
-  std::string label = "spring-damper";
-  Marker<Dim> between = to - from;  // follows from the others
+  Marker<Dim> from = {};                                             ///< one end
+  Marker<Dim> to = {};                                               ///< the other end
+  double stiffness = 0;                                              ///< k [N/m]
+  double damping = 0;                                                ///< c [N s/m]
+  double natural_length = std::numeric_limits<double>::quiet_NaN();  ///< l0 [m]
+  std::function<Tension(double, double)> law = {};  ///< T(l, l'); where given, in place of these
+  std::string label = "spring-damper";              ///< name in messages and reports
+  Marker<Dim> between = to - from;                  ///< follows from the others
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return between.index; }
 
@@ -60,6 +61,7 @@ struct SpringDamper {
     const Stretch now = stretch(q, v);
     return tension(now.length, now.rate).dissipation;
   }
+  ///@}
 
   /// @throws InvalidInput for a stiffness, damping or natural length below zero, a spring without
   ///         natural length, or ends that are the same point.

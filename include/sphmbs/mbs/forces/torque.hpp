@@ -16,17 +16,18 @@ namespace sphmbs::mbs::forces {
 /// (forces/turn.hpp has the general formula). With `against`, a vector of another part takes -M.
 template <int Dim>
 struct Torque {
-  static constexpr bool is_load = true;
+  static constexpr bool is_load = true;  ///< statics raises it step by step, see `Load`
 
-  Marker<Dim> on = {};                         // u
-  Marker<Dim> against = {};                    // takes the reaction; the ground does by default
-  Marker<Dim> axis = {};                       // a, in space
-  double value = 0;                            // M [N m]
-  std::function<double(double)> history = {};  // M(t) [N m]; where given, in place of value
-  std::string label = "torque";
-  Marker<2 * Turn<Dim>::size> y =  // follows from the others
-      stacked(Turn<Dim>::y(axis, on), Turn<Dim>::y(axis, against));
+  Marker<Dim> on = {};                         ///< u
+  Marker<Dim> against = {};                    ///< takes the reaction; the ground does by default
+  Marker<Dim> axis = {};                       ///< a, in space
+  double value = 0;                            ///< M [N m]
+  std::function<double(double)> history = {};  ///< M(t) [N m]; where given, in place of value
+  std::string label = "torque";                ///< name in messages and reports
+  /// Vectors that turn, on all their coordinates; follows from the others.
+  Marker<2 * Turn<Dim>::size> y = stacked(Turn<Dim>::y(axis, on), Turn<Dim>::y(axis, against));
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
   double load(double t) const { return history ? history(t) : value; }
@@ -50,8 +51,9 @@ struct Torque {
     add_tangent(y, K, k);
   }
 
-  double potential(VectorIn, double) const { return 0; }  // its work grows with every turn
+  double potential(VectorIn, double) const { return 0; }  ///< its work grows with every turn
   double dissipation(VectorIn, VectorIn, double) const { return 0; }
+  ///@}
 
   /// @throws InvalidInput unless the moment is finite, and the vector and the axis are given.
   void check() const {

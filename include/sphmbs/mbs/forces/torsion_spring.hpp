@@ -16,16 +16,17 @@ namespace sphmbs::mbs::forces {
 /// in (-pi, pi]: a spring wound beyond half a turn jumps to the other side.
 template <int Dim>
 struct TorsionSpring {
-  Marker<Dim> from = {};
-  Marker<Dim> to = {};
-  Marker<Dim> axis = {};     // in space
-  double stiffness = 0;      // k [N m/rad]
-  double damping = 0;        // c [N m s/rad]
-  double natural_angle = 0;  // theta0 [rad]
-  std::string label = "torsion spring";
-  Marker<2 * Turn<Dim>::size> y =  // follows from the others
-      stacked(Turn<Dim>::y(axis, from), Turn<Dim>::y(axis, to));
+  Marker<Dim> from = {};                 ///< vector that the angle is counted from
+  Marker<Dim> to = {};                   ///< vector that turns
+  Marker<Dim> axis = {};                 ///< in space
+  double stiffness = 0;                  ///< k [N m/rad]
+  double damping = 0;                    ///< c [N m s/rad]
+  double natural_angle = 0;              ///< theta0 [rad]
+  std::string label = "torsion spring";  ///< name in messages and reports
+  /// Both vectors, on all their coordinates; follows from the others.
+  Marker<2 * Turn<Dim>::size> y = stacked(Turn<Dim>::y(axis, from), Turn<Dim>::y(axis, to));
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return y.index; }
 
@@ -67,6 +68,7 @@ struct TorsionSpring {
     const double rate = gradient(y.local(q)).dot(y.N * v);
     return damping * rate * rate;
   }
+  ///@}
 
   /// @throws InvalidInput for a stiffness or damping below zero, or a vector or axis not given.
   void check() const {

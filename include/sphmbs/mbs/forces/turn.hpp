@@ -21,6 +21,7 @@ struct Turn;
 /// In the plane, y = u and g = J u / |u|^2, J the quarter turn: the gradient of the angle of u.
 template <>
 struct Turn<2> {
+  ///@{ See the template.
   static constexpr int size = 2;
 
   static Marker<2> y(const Marker<2>&, const Marker<2>& u) { return u; }
@@ -38,6 +39,7 @@ struct Turn<2> {
   static double angle(const Vector<2>& from, const Vector<2>& to) {
     return std::atan2(quarter_turn(from).dot(to), from.dot(to));
   }
+  ///@}
 };
 
 /// In space, about an axis a, y = (a, u): p = a x u, h = |a| p / |p|^2 turns u, and the axis, where
@@ -46,6 +48,7 @@ struct Turn<2> {
 /// of the angle between them, seen along the axis.
 template <>
 struct Turn<3> {
+  ///@{ See the template.
   static constexpr int size = 6;
 
   static Marker<6> y(const Marker<3>& axis, const Marker<3>& u) { return stacked(axis, u); }
@@ -78,6 +81,7 @@ struct Turn<3> {
     const Vector<3> a = from.head<3>(), p = a.cross(from.tail<3>());
     return std::atan2(a.norm() * p.dot(to.tail<3>()), p.dot(a.cross(to.tail<3>())));
   }
+  ///@}
 };
 
 }  // namespace sphmbs::mbs::forces

@@ -19,15 +19,20 @@ namespace sphmbs::mbs::forces {
 template <class F>
 class Assignable {
  public:
+  /// Holds a function.
   Assignable(F function) : function_(std::move(function)) {}
+  /// Copies the function.
   Assignable(const Assignable&) = default;
+  /// Takes the function over.
   Assignable(Assignable&&) = default;
   ~Assignable() = default;
+  /// Replaces the function, which lambdas alone do not allow.
   Assignable& operator=(Assignable other) {
     std::destroy_at(&function_);
     std::construct_at(&function_, std::move(other.function_));
     return *this;
   }
+  /// The function.
   const F& operator*() const { return function_; }
 
  private:
@@ -53,16 +58,18 @@ struct Differentiated {};
 ///   });
 template <int Size, class Law, class Tangent = Differentiated>
 struct UserForce {
-  using Value = Vector<Size>;
-  using Slope = Matrix<Size, Size>;
+  using Value = Vector<Size>;        ///< x, v, and the force on them
+  using Slope = Matrix<Size, Size>;  ///< derivatives of the force
+  /// Whether the law gives a potential.
   static constexpr bool has_potential = requires(const Law l, Value x) { l.potential(x, 0.0); };
-  static constexpr bool is_load = !has_potential;
+  static constexpr bool is_load = !has_potential;  ///< statics raises it step by step, see `Load`
 
-  Marker<Size> on;
-  Assignable<Law> law;
-  Assignable<Tangent> slope = Tangent{};
-  std::string label = "user force";
+  Marker<Size> on;                        ///< x, the numbers the law sees
+  Assignable<Law> law;                    ///< the force, see above
+  Assignable<Tangent> slope = Tangent{};  ///< k and c, see above; without it by dual numbers
+  std::string label = "user force";       ///< name in messages and reports
 
+  ///@{ As `Force` asks.
   const std::string& name() const { return label; }
   const Index& index() const { return on.index; }
 
@@ -96,6 +103,7 @@ struct UserForce {
     else
       return 0;
   }
+  ///@}
 
   /// @throws InvalidInput where the marker moves with no coordinate.
   void check() const { expects(!on.index.empty(), "coordinates of its marker", 0, "one or more"); }

@@ -14,41 +14,43 @@ namespace sphmbs::mbs::joints {
 /// x_a(q) - x_b(q) - path(t) = 0, Dim conditions, linear in q.
 template <int Dim>
 struct Held {
-  Marker<Dim> a;
-  Marker<Dim> b = Marker<Dim>();  // none: the ground
-  Path<Dim> path = {};            // [m], or [-] of vectors
-  bool points = true;             // whether these are points or vectors
-  std::string label = "position";
+  Marker<Dim> a;                   ///< point or vector of the first part
+  Marker<Dim> b = Marker<Dim>();   ///< none: the ground
+  Path<Dim> path = {};             ///< [m], or [-] of vectors
+  bool points = true;              ///< whether these are points or vectors
+  std::string label = "position";  ///< name in messages and reports
 };
 
 /// What a factor of a product is to the joint; the reaction depends on it.
 enum class Role {
-  fixed,        // a direction of the ground
-  vector_of_a,  // a vector that turns with a
-  vector_of_b,  // a vector that turns with b
-  gap           // a point of a less a point of b
+  fixed,        ///< a direction of the ground
+  vector_of_a,  ///< a vector that turns with a
+  vector_of_b,  ///< a vector that turns with b
+  gap           ///< a point of a less a point of b
 };
 
+/// A vector in a product.
 template <int Dim>
 struct Factor {
-  Marker<Dim> marker;
-  Role role;
+  Marker<Dim> marker;  ///< the vector, or the difference of two points
+  Role role;           ///< what it is to the joint
 };
 
 /// f(t) u(q).w(q).
 template <int Dim>
 struct Term {
-  Factor<Dim> u, w;
-  TimeFunction f = 1.0;
+  Factor<Dim> u;         ///< first factor
+  Factor<Dim> w;         ///< second factor
+  TimeFunction f = 1.0;  ///< weight
 };
 
 /// scale (sum of f(t) u(q).w(q) over the terms - c(t)) = 0, one condition, quadratic in q.
 template <int Dim>
 struct Product {
-  std::vector<Term<Dim>> terms;
-  TimeFunction c = 0.0;
-  double scale = 1;  // makes Phi a length [m], or of unit vectors
-  std::string label;
+  std::vector<Term<Dim>> terms;  ///< summed
+  TimeFunction c = 0.0;          ///< what the sum is to be
+  double scale = 1;              ///< makes Phi a length [m], or of unit vectors
+  std::string label;             ///< name in messages and reports
 };
 
 /// x at the coordinates q that its index counts.
@@ -81,6 +83,7 @@ bool on_one_part(const Marker<Dim>& a, const Marker<Dim>& b) {
   return all == merged_index({a}).size() || all == merged_index({b}).size();
 }
 
+/// @throws InvalidInput unless all numbers are finite.
 template <int Dim>
 void check(const Marker<Dim>& x) {
   expects(x.N.allFinite() && x.x0.allFinite(), "marker", x.x0.transpose(), "finite");
@@ -98,6 +101,7 @@ void check(const Held<Dim>& held) {
           "of a part that can move");
 }
 
+/// @throws InvalidInput unless something in it can move and all is finite.
 template <int Dim>
 void check(const Product<Dim>& product) {
   int moving = 0;

@@ -16,13 +16,17 @@ using Dual = Eigen::AutoDiffScalar<Vector<1>>;
 /// Number with its derivatives along two directions and the mixed second derivative.
 using Dual2 = Eigen::AutoDiffScalar<Matrix<1, 1, Dual>>;
 
+/// The number x whose derivative is `along`.
 inline Dual dual(double x, double along) { return {x, Vector<1>(along)}; }
 
+/// The number x with derivatives along two directions.
 inline Dual2 dual2(double x, double along_1, double along_2) {
   return {dual(x, along_1), Matrix<1, 1, Dual>(dual(along_2, 0))};
 }
 
+/// Derivative.
 inline double slope(const Dual& x) { return x.derivatives()[0]; }
+/// Second derivative along the two directions.
 inline double mixed(const Dual2& x) { return x.derivatives()[0].derivatives()[0]; }
 
 /// A time function whose derivatives are found by automatic differentiation.

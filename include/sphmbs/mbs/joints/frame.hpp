@@ -20,7 +20,8 @@ namespace sphmbs::mbs::joints {
 /// vectors of a rigid body.
 template <int Dim>
 struct Frame {
-  Marker<Dim> origin;
+  Marker<Dim> origin;  ///< a point
+  /// Orthonormal, and turning with the body.
   std::array<Marker<Dim>, static_cast<std::size_t>(Dim)> vectors;
 };
 

@@ -12,17 +12,19 @@ namespace sphmbs::mbs::joints {
 ///   F = mu N tanh(w / w0) + c w,    N = sqrt(n^2 + N0^2) - N0.
 /// Nothing sticks: below w0 it creeps.
 struct Friction {
-  double coefficient = 0;          // mu [-]
-  double viscous = 0;              // c [N s/m]
-  double creep_velocity = 1e-2;    // w0 [m/s]
-  double normal_smoothing = 1e-3;  // N0 [N]
+  double coefficient = 0;          ///< mu [-]
+  double viscous = 0;              ///< c [N s/m]
+  double creep_velocity = 1e-2;    ///< w0 [m/s]
+  double normal_smoothing = 1e-3;  ///< N0 [N]
 
+  /// The friction force and its derivatives.
   struct Resistance {
-    double force;        // F [N]
-    double by_velocity;  // dF/dw [N s/m]
-    double by_normal;    // (dF/dn) / n, finite at n = 0 [1/N]
+    double force;        ///< F [N]
+    double by_velocity;  ///< dF/dw [N s/m]
+    double by_normal;    ///< (dF/dn) / n, finite at n = 0 [1/N]
   };
 
+  /// At the square of the normal force [N^2] and a velocity [m/s].
   Resistance resistance(double squared_normal, double velocity) const {
     const double root = std::sqrt(squared_normal + normal_smoothing * normal_smoothing);
     const double pressed = coefficient * (root - normal_smoothing);

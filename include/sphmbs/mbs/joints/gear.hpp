@@ -16,13 +16,16 @@ namespace sphmbs::mbs::joints {
 /// plane, as the imaginary part of a product of powers of complex numbers. It is smooth for all
 /// angles, unlike angles themselves, and counts no turns: p and q are whole numbers.
 struct Mesh {
-  static constexpr std::string_view kind = "gear";
+  static constexpr std::string_view kind = "gear";  ///< what messages call it
 
-  int p, q;
-  int s;         // 1: opposite turning, -1: the same
-  double phase;  // [rad]
-  double length_a, length_b;
+  int p;            ///< whole number that multiplies alpha
+  int q;            ///< whole number that multiplies beta
+  int s;            ///< 1: opposite turning, -1: the same
+  double phase;     ///< [rad]
+  double length_a;  ///< of the first vector [m]
+  double length_b;  ///< of the second vector [m]
 
+  /// The condition, at the components x of both vectors.
   template <class S>
   Vector<1, S> operator()(const Vector<Dynamic, S>& x, const S&) const {
     const Complex<S> a = power<S>({x[0] / length_a, x[1] / length_a}, p);

@@ -24,6 +24,7 @@ inline std::string titled(std::string_view kind, std::string_view name) {
 template <int Dim>
 class Joint {
  public:
+  /// Joins what `held` and `products` name. @throws InvalidInput as check() does.
   Joint(std::string name, std::vector<Held<Dim>> held, std::vector<Product<Dim>> products = {})
       : name_(std::move(name)), held_(std::move(held)), products_(std::move(products)) {
     for_each_marker(
@@ -36,9 +37,11 @@ class Joint {
     });
   }
 
+  ///@{ As `Constraint` asks.
   const std::string& name() const { return name_; }
   const Index& index() const { return index_; }
   int conditions() const { return static_cast<int>(Dim * held_.size() + products_.size()); }
+  ///@}
 
   /// Whether Phi is linear in q, so that add_hessian adds nothing.
   bool linear() const {
@@ -64,6 +67,7 @@ class Joint {
     for (const Product<Dim>& product : products_) joints::check(product);
   }
 
+  /// Phi.
   void residual(VectorIn q, double t, VectorOut phi) const {
     int row = 0;
     for (const Held<Dim>& h : held_) {
@@ -78,6 +82,7 @@ class Joint {
     }
   }
 
+  /// Phi_q.
   void jacobian(VectorIn q, double t, MatrixOut phi_q) const {
     int row = 0;
     for (const Held<Dim>& h : held_)
@@ -115,6 +120,7 @@ class Joint {
     }
   }
 
+  /// Phi_t.
   void rate(VectorIn q, double t, VectorOut phi_t) const {
     int row = 0;
     for (const Held<Dim>& h : held_) {
@@ -129,6 +135,7 @@ class Joint {
     }
   }
 
+  /// 2 Phi_qt v + Phi_tt.
   void acceleration(VectorIn q, VectorIn v, double t, VectorOut gamma) const {
     int row = 0;
     for (const Held<Dim>& h : held_) {
@@ -150,6 +157,7 @@ class Joint {
 
   /// The conditions; their markers count coordinates in the order of index().
   const std::vector<Held<Dim>>& held() const { return held_; }
+  /// The conditions that are quadratic in q.
   const std::vector<Product<Dim>>& products() const { return products_; }
 
  private:

@@ -37,8 +37,10 @@ class Rail {
     }
   }
 
-  double length() const { return length_; }  // [m]
+  double length() const { return length_; }  ///< [m]
+  /// Number of elements.
   std::size_t size() const { return elements_.size(); }
+  /// Element i, counted from the start.
   const Placed<E>& element(std::size_t i) const { return elements_[i]; }
   /// s where element i begins [m].
   double start(std::size_t i) const { return starts_[i]; }
@@ -54,6 +56,7 @@ class Rail {
     const std::size_t i = element_at(s);
     return elements_[i].point(elements_[i].part.on_axis(s - starts_[i]));
   }
+  /// r' at arc coordinate s [m].
   Marker<E::dim> tangent(double s) const {
     const std::size_t i = element_at(s);
     return elements_[i].gradient(elements_[i].part.on_axis(s - starts_[i]), 0);

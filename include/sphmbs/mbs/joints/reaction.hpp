@@ -8,9 +8,9 @@ namespace sphmbs::mbs::joints {
 /// What a joint exerts on its part a.
 template <int Dim>
 struct Reaction {
-  static constexpr int rotations = Dim == 2 ? 1 : 3;
-  Vector<Dim> force = Vector<Dim>::Zero();               // at the joint's point of a [N]
-  Vector<rotations> couple = Vector<rotations>::Zero();  // [N m]
+  static constexpr int rotations = Dim == 2 ? 1 : 3;     ///< components of a moment
+  Vector<Dim> force = Vector<Dim>::Zero();               ///< at the joint's point of a [N]
+  Vector<rotations> couple = Vector<rotations>::Zero();  ///< [N m]
 };
 
 /// u x w; its one component in 2D.

@@ -72,6 +72,7 @@ class Relation {
     count();
   }
 
+  ///@{ As `Constraint` asks.
   const std::string& name() const { return name_; }
   const Index& index() const { return index_; }
   int conditions() const { return conditions_; }
@@ -135,6 +136,7 @@ class Relation {
       gamma = 2 * second(x, t, {x_rate, 0}, time) + second(x, t, time, time);
     }
   }
+  ///@}
 
  private:
   struct Direction {
@@ -177,8 +179,8 @@ Marker<Dim> coordinate(int k) {
 /// A factor times the component of a marker along a vector of the ground: factor.x.
 template <int Dim>
 struct Share {
-  Vector<Dim> factor;
-  Marker<Dim> x;
+  Vector<Dim> factor;  ///< direction along which x counts
+  Marker<Dim> x;       ///< a point or vector
 };
 
 /// Sum of factor.x over markers = value(t): one condition, linear in q.

@@ -22,22 +22,22 @@ namespace sphmbs::mbs::joints {
 
 /// What happens where a slider comes to an end of its rail.
 enum class Ends {
-  event,  // BeyondModel once a state beyond the end is accepted
-  stop    // a spring and damper pushes it back
+  event,  ///< BeyondModel once a state beyond the end is accepted
+  stop    ///< a spring and damper pushes it back
 };
 
 /// How a point slides along a rail.
 template <int Dim>
 struct SlidingOptions {
-  Marker<Dim> slider = {};          // the point
-  double at = 0;                    // s at t = 0 [m]
-  std::optional<double> rate = {};  // ds/dt at t = 0 [m/s]; else from the slider's velocity
-  Friction friction = {};
-  Ends ends = Ends::event;
-  forces::Penalty stop = {.stiffness = 1e6, .exponent = 1.5, .damping = 1};  // against s
-  double overrun = 1e-6;    // share of the rail that is no event yet [-]
-  double tolerance = 1e-6;  // distance at t = 0 that is allowed, over the rail's length
-  std::string name = "";
+  Marker<Dim> slider = {};          ///< the point
+  double at = 0;                    ///< s at t = 0 [m]
+  std::optional<double> rate = {};  ///< ds/dt at t = 0 [m/s]; else from the slider's velocity
+  Friction friction = {};           ///< along the rail; none unless given
+  Ends ends = Ends::event;          ///< what happens at the ends of the rail
+  forces::Penalty stop = {.stiffness = 1e6, .exponent = 1.5, .damping = 1};  ///< against s
+  double overrun = 1e-6;    ///< share of the rail that is no event yet [-]
+  double tolerance = 1e-6;  ///< distance at t = 0 that is allowed, over the rail's length
+  std::string name = "";    ///< what messages call it
 };
 
 /// A point slides along a chain of elements: Phi = x(q) - r(s, q) = 0, Dim conditions. The material
@@ -52,7 +52,7 @@ struct SlidingOptions {
 template <RailElement E>
 class Sliding {
  public:
-  static constexpr int dim = E::dim;
+  static constexpr int dim = E::dim;  ///< dimension of space
 
   /// @param arc  the node of s, see `sliding`
   Sliding(Rail<E> rail, Node arc, SlidingOptions<E::dim> options)
@@ -63,15 +63,19 @@ class Sliding {
     move_to(rail_.element_at(options_.at));
   }
 
+  ///@{ As `Constraint` asks.
   const std::string& name() const { return name_; }
   const Index& index() const { return index_; }
   int conditions() const { return dim; }
+  ///@}
+  /// What it slides on.
   const Rail<E>& rail() const { return rail_; }
   /// The coordinate s, for sensors and forces.
   Marker<1> arc() const { return {.index = {arc_.offset}, .N = Matrix<1, Dynamic>::Ones(1, 1)}; }
   /// The element of the rail that the joint is on.
   std::size_t element() const { return element_; }
 
+  /// Moves to the element that q puts it on, as `MovingConstraint` asks.
   bool relocate(const VectorXd& q) {
     const std::size_t now = rail_.element_at(q[arc_.offset]);
     if (now == element_) return false;
@@ -79,6 +83,7 @@ class Sliding {
     return true;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`.
   template <Archive A>
   void visit_state(A& archive) {
     std::uint64_t element = element_;
@@ -86,11 +91,13 @@ class Sliding {
     if (A::restores) move_to(std::min<std::size_t>(element, rail_.size() - 1));
   }
 
+  /// Phi: the point less the rail at its place.
   void residual(VectorIn q, double, VectorOut phi) const {
     const E& part = rail_.element(element_).part;
     phi = options_.slider.local(q.head(sliders())) - part.shape(on_axis(q)) * own(q);
   }
 
+  /// Phi_q.
   void jacobian(VectorIn q, double, MatrixOut phi_q) const {
     const E& part = rail_.element(element_).part;
     phi_q.leftCols(sliders()) = options_.slider.N;
@@ -98,6 +105,7 @@ class Sliding {
     phi_q.template rightCols<E::dofs>() = -part.shape(on_axis(q));
   }
 
+  /// d(Phi_q^T lambda)/dq, added to h.
   void add_hessian(VectorIn q, double, VectorIn lambda, MatrixOut h) const {
     const E& part = rail_.element(element_).part;
     const int s = sliders();
@@ -108,7 +116,9 @@ class Sliding {
     h.row(s).template tail<E::dofs>() -= cross.transpose();
   }
 
+  /// Nothing depends on time.
   void rate(VectorIn, double, VectorOut) const {}
+  /// Nothing depends on time.
   void acceleration(VectorIn, VectorIn, double, VectorOut) const {}
 
   /// r_s = |r'| F - Q_stop, the one component of friction and stops.
@@ -117,6 +127,7 @@ class Sliding {
     r[sliders()] += slip.stretch * slip.resistance.force + stops(q[sliders()], v[sliders()]).force;
   }
 
+  /// Derivatives of the friction, as `FrictionalConstraint` asks.
   void friction_tangent(VectorIn q, VectorIn v, double, VectorIn lambda, MatrixOut k, MatrixOut c,
                         MatrixOut l) const {
     const int s = sliders();
@@ -135,6 +146,7 @@ class Sliding {
     l.row(s) += slip.stretch * F.by_normal * slip.across_force.transpose();
   }
 
+  /// Power that friction takes [W].
   double dissipation(VectorIn q, VectorIn v, double, VectorIn lambda) const {
     const Slip slip(*this, q, v, lambda);
     return slip.resistance.force * slip.velocity + stops(q[sliders()], v[sliders()]).dissipation;

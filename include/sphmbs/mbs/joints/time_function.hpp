@@ -19,7 +19,7 @@ namespace sphmbs::mbs::joints {
 /// evaluated in parallel: the three functions may be called by several threads at once.
 class TimeFunction {
  public:
-  using Function = std::function<double(double)>;
+  using Function = std::function<double(double)>;  ///< of the time [s]
 
   /// A constant.
   TimeFunction(double constant = 0) : constant_(constant) {}
@@ -32,9 +32,13 @@ class TimeFunction {
             "three functions: value, rate and acceleration");
   }
 
+  /// At time t [s].
   double value(double t) const { return value_ ? value_(t) : constant_; }
+  /// First derivative at time t [s].
   double rate(double t) const { return value_ ? rate_(t) : 0; }
+  /// Second derivative at time t [s].
   double acceleration(double t) const { return value_ ? acceleration_(t) : 0; }
+  /// Whether it is a plain number.
   bool constant() const { return !value_; }
 
   /// @throws InvalidInput unless value, rate and acceleration are finite at t = 0.
@@ -58,11 +62,12 @@ inline TimeFunction linear_in_time(double start, double slope) {
 
 /// mean + amplitude sin(2 pi frequency t + phase).
 struct Sine {
-  double amplitude;
-  double frequency;  // [Hz]
-  double phase = 0;  // [rad]
-  double mean = 0;
+  double amplitude;  ///< half of the way between its extremes
+  double frequency;  ///< [Hz]
+  double phase = 0;  ///< [rad]
+  double mean = 0;   ///< value about which it swings
 
+  /// As a function of time with its derivatives.
   operator TimeFunction() const {
     const double w = 2 * std::numbers::pi * frequency;
     return {[s = *this, w](double t) { return s.mean + s.amplitude * std::sin(w * t + s.phase); },
@@ -74,10 +79,10 @@ struct Sine {
 /// From one value to another with continuous second derivative:
 /// s^3 (10 - 15 s + 6 s^2), s = (t - begin) / (end - begin).
 struct SmoothStep {
-  double from = 0;
-  double to;
-  double begin = 0;  // [s]
-  double end;        // [s]
+  double from = 0;   ///< value before the change
+  double to;         ///< value after it
+  double begin = 0;  ///< [s]
+  double end;        ///< [s]
 
   /// @throws InvalidInput unless it ends after it begins.
   operator TimeFunction() const {
@@ -123,6 +128,7 @@ inline TimeFunction cosine_of(const TimeFunction& f, double factor, double phase
 template <int Dim>
 class Path {
  public:
+  /// A point at rest.
   Path(const Vector<Dim>& constant = Vector<Dim>::Zero()) {
     for (int k = 0; k < Dim; ++k) along_[static_cast<std::size_t>(k)] = constant[k];
   }
@@ -132,12 +138,15 @@ class Path {
            (std::convertible_to<F, TimeFunction> && ...)) explicit Path(F... components)
       : along_{TimeFunction(std::move(components))...} {}
 
+  /// At time t [s].
   Vector<Dim> value(double t) const {
     return each([t](const TimeFunction& f) { return f.value(t); });
   }
+  /// Velocity at time t [s].
   Vector<Dim> rate(double t) const {
     return each([t](const TimeFunction& f) { return f.rate(t); });
   }
+  /// Acceleration at time t [s].
   Vector<Dim> acceleration(double t) const {
     return each([t](const TimeFunction& f) { return f.acceleration(t); });
   }

@@ -13,9 +13,9 @@ namespace sphmbs::mbs::ncf {
 
 /// Inertia of a spatial body, in its own axes.
 struct Inertia {
-  double mass;                                 // [kg]
-  Vector<3> centre = Vector<3>::Zero();        // centre of mass [m]
-  Matrix<3, 3> tensor = Matrix<3, 3>::Zero();  // about the centre of mass [kg m^2]
+  double mass;                                 ///< [kg]
+  Vector<3> centre = Vector<3>::Zero();        ///< centre of mass [m]
+  Matrix<3, 3> tensor = Matrix<3, 3>::Zero();  ///< about the centre of mass [kg m^2]
 
   /// Integral of rho X X^T dV = tr(J) / 2 - J + m c c^T [kg m^2].
   Matrix<3, 3> second_moments() const {

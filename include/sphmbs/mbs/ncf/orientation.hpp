@@ -11,11 +11,15 @@ namespace sphmbs::mbs::ncf {
 /// Orientation of a spatial body: the rotation matrix R whose columns are the body's axes. It may
 /// be given as such, as a unit quaternion, or as an axis and an angle.
 struct Orientation {
+  /// Columns are the axes of the body in the ground's frame.
   Matrix<3, 3> R = Matrix<3, 3>::Identity();
 
   Orientation() = default;
+  /// From a rotation; not checked here, but by the body's check().
   Orientation(const Matrix<3, 3>& rotation) : R(rotation) {}
+  /// From a rotation; not checked here, but by the body's check().
   Orientation(const Eigen::Quaterniond& q) : R(q.toRotationMatrix()) {}
+  /// From a rotation; not checked here, but by the body's check().
   Orientation(const Eigen::AngleAxisd& turn) : R(turn.toRotationMatrix()) {}
 
   /// @throws InvalidInput unless R is a rotation, to 1e-8.

@@ -10,9 +10,9 @@ namespace sphmbs::mbs::ncf {
 
 /// Inertia of a planar body, in its own axes.
 struct PlanarInertia {
-  double mass;                           // [kg]
-  Vector<2> centre = Vector<2>::Zero();  // centre of mass [m]
-  double polar;                          // moment of inertia about the centre of mass [kg m^2]
+  double mass;                           ///< [kg]
+  Vector<2> centre = Vector<2>::Zero();  ///< centre of mass [m]
+  double polar;                          ///< moment of inertia about the centre of mass [kg m^2]
 
   /// Moment of inertia about the origin [kg m^2].
   double polar_about_origin() const { return polar + mass * centre.squaredNorm(); }

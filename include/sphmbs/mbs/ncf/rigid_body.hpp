@@ -28,23 +28,23 @@ enum class Axes { global, body };
 /// common vector w are hinged about w, and |w| = 1 is one of their conditions twice, a redundant
 /// one. Garcia de Jalon and Bayo 1994, sections 2.2 and 4.2.
 struct RigidBody {
-  static constexpr std::string_view label = "rigid body";
-  static constexpr int dim = 3;
-  static constexpr int nodes = 4;
-  static constexpr int node_dofs = 3;
-  static constexpr int dofs = nodes * node_dofs;
-  static constexpr int conditions = 6;
-  static constexpr int drawn = 1;
-  using Material = Vector<3>;
+  static constexpr std::string_view label = "rigid body";  ///< what messages call it
+  static constexpr int dim = 3;                            ///< dimension of space
+  static constexpr int nodes = 4;                          ///< nodes that carry its coordinates
+  static constexpr int node_dofs = 3;                      ///< coordinates of a node
+  static constexpr int dofs = nodes * node_dofs;           ///< all its coordinates, node by node
+  static constexpr int conditions = 6;  ///< algebraic conditions that keep it rigid
+  static constexpr int drawn = 1;       ///< dimension of its picture: 1 a line, 2 a surface
+  using Material = Vector<3>;           ///< material coordinates of a point, in its own frame [m]
 
-  Inertia inertia;
-  Orientation orientation = {};                    // at t = 0
-  Vector<3> reference = Vector<3>::Zero();         // material point that these belong to [m]:
-  Vector<3> position = Vector<3>::Zero();          // its place at t = 0 [m]
-  Vector<3> velocity = Vector<3>::Zero();          // its velocity at t = 0 [m/s]
-  Vector<3> angular_velocity = Vector<3>::Zero();  // at t = 0 [rad/s]
-  Axes angular_velocity_in = Axes::global;
-  std::vector<Vector<3>> outline_points = {};  // drawn polyline; none: box of equal inertia [m]
+  Inertia inertia;                                 ///< mass, centre and moments of inertia
+  Orientation orientation = {};                    ///< at t = 0
+  Vector<3> reference = Vector<3>::Zero();         ///< material point that these belong to [m]:
+  Vector<3> position = Vector<3>::Zero();          ///< its place at t = 0 [m]
+  Vector<3> velocity = Vector<3>::Zero();          ///< its velocity at t = 0 [m/s]
+  Vector<3> angular_velocity = Vector<3>::Zero();  ///< at t = 0 [rad/s]
+  Axes angular_velocity_in = Axes::global;         ///< axes in which the angular velocity is given
+  std::vector<Vector<3>> outline_points = {};  ///< drawn polyline; none: box of equal inertia [m]
 
   /// @throws InvalidInput unless the mass properties make sense, the orientation is a rotation and
   /// all is finite.
@@ -59,11 +59,13 @@ struct RigidBody {
     expects(outline_points.size() != 1, "outline_points", "1 point", "none, or two and more");
   }
 
+  /// N at X, in the frame of the body.
   Matrix<3, 12> shape(const Material& X) const {
     const Matrix<3, 3> one = Matrix<3, 3>::Identity();
     return (Matrix<3, 12>() << one, X[0] * one, X[1] * one, X[2] * one).finished();
   }
 
+  /// As `Part` asks.
   Matrix<12, 12> mass_matrix() const {
     Matrix<4, 4> P;
     P << inertia.mass, inertia.mass * inertia.centre.transpose(), inertia.mass * inertia.centre,
@@ -74,6 +76,7 @@ struct RigidBody {
     return M;
   }
 
+  /// As `Part` asks.
   static Matrix<12, 3> translation() { return Matrix<12, 3>::Identity(); }
 
   /// Phi = ((u.u - 1) / 2, (v.v - 1) / 2, (w.w - 1) / 2, v.w, w.u, u.v) [-].
@@ -86,6 +89,7 @@ struct RigidBody {
     }
     return phi;
   }
+  /// As `Body` asks.
   Matrix<6, 12> rigidity_jacobian(const Vector<12>& q) const {
     Matrix<6, 12> phi_q = Matrix<6, 12>::Zero();
     for (int c = 0; c < 6; ++c) {
@@ -95,6 +99,7 @@ struct RigidBody {
     }
     return phi_q;
   }
+  /// As `Body` asks.
   Matrix<12, 12> rigidity_hessian(const Vector<6>& lambda) const {
     Matrix<12, 12> h = Matrix<12, 12>::Zero();
     for (int c = 0; c < 6; ++c) {
@@ -104,10 +109,12 @@ struct RigidBody {
     return h;
   }
 
+  /// As `Body` asks.
   Vector<12> initial_coordinates() const {
     const Matrix<3, 3>& R = orientation.R;
     return (Vector<12>() << position - R * reference, R.col(0), R.col(1), R.col(2)).finished();
   }
+  /// As `Body` asks.
   Vector<12> initial_rates() const {
     const Matrix<3, 3>& R = orientation.R;
     const Vector<3> omega =
@@ -117,6 +124,7 @@ struct RigidBody {
         .finished();
   }
 
+  /// Where its picture is at s in [0, 1].
   Material outline(double s) const {
     if (!outline_points.empty()) return along(outline_points, s);
     const Eigen::SelfAdjointEigenSolver<Matrix<3, 3>> axes(inertia.central_moments() /

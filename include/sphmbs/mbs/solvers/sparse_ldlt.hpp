@@ -17,8 +17,9 @@ namespace sphmbs::mbs::solvers {
 /// follower loads) only the lower half is used: Newton then converges more slowly, or not at all.
 class SparseLDLT {
  public:
-  static constexpr std::string_view name = "Eigen LDLT, multipliers last";
+  static constexpr std::string_view name = "Eigen LDLT, multipliers last";  ///< name in reports
 
+  ///@{ As `LinearSolver` asks.
   void analyse(const SparseMatrix& A, const std::vector<Role>& roles) {
     order(A, roles);
     const auto n = static_cast<std::size_t>(A.rows());
@@ -60,6 +61,7 @@ class SparseLDLT {
     x.resize(b.size());
     for (int k = 0; k < b.size(); ++k) x[k] = work_[place_[at(k)]];
   }
+  ///@}
 
  private:
   using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;

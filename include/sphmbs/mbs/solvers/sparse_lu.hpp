@@ -12,8 +12,9 @@ namespace sphmbs::mbs::solvers {
 /// Supernodal LU with partial pivoting (Eigen), for any regular matrix: the default.
 class SparseLU {
  public:
-  static constexpr std::string_view name = "Eigen SparseLU";
+  static constexpr std::string_view name = "Eigen SparseLU";  ///< name in reports
 
+  ///@{ As `LinearSolver` asks.
   void analyse(const SparseMatrix& A, const std::vector<Role>&) {
     lu_ = std::make_unique<Eigen::SparseLU<SparseMatrix>>();
     lu_->analyzePattern(A);
@@ -25,6 +26,7 @@ class SparseLU {
   }
 
   void solve(const VectorXd& b, VectorXd& x) const { x = lu_->solve(b); }
+  ///@}
 
  private:
   std::unique_ptr<Eigen::SparseLU<SparseMatrix>> lu_;  // Eigen's cannot be moved

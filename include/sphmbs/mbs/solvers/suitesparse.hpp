@@ -15,8 +15,9 @@ namespace sphmbs::mbs::solvers {
 template <class Direct, class Name>
 class FromEigen {
  public:
-  static constexpr std::string_view name = Name::text;
+  static constexpr std::string_view name = Name::text;  ///< name in reports
 
+  ///@{ As `LinearSolver` asks.
   void analyse(const SparseMatrix& A, const std::vector<Role>&) {
     direct_ = std::make_unique<Direct>();
     direct_->analyzePattern(A);
@@ -28,6 +29,7 @@ class FromEigen {
   }
 
   void solve(const VectorXd& b, VectorXd& x) const { x = direct_->solve(b); }
+  ///@}
 
  private:
   std::unique_ptr<Direct> direct_;  // Eigen's cannot be moved

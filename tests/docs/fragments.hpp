@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// What fragments of the pages are compiled with: every room, and the names that pages leave out.
+#pragma once
+
+#include <sphmbs/coupling.hpp>
+#include <sphmbs/io/checkpoints.hpp>
+#include <sphmbs/io/state_archive.hpp>
+#include <sphmbs/mbs.hpp>
+#include <sphmbs/mbs/ancf/cable.hpp>
+#include <sphmbs/mbs/ancf/line.hpp>
+#include <sphmbs/mbs/ncf/planar_body.hpp>
+#include <sphmbs/sphmbs.hpp>
+
+using namespace sphmbs;  // NOLINT: as the pages do
