@@ -7,6 +7,7 @@
 #include <sphmbs/particles/state.hpp>
 
 #include "support/parameters.hpp"
+#include "support/text.hpp"
 
 namespace sphmbs::examples {
 
