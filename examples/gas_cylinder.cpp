@@ -28,9 +28,13 @@ struct Flow {
     examples::add_still_gas(parameters, gas);
   }
   void check() const {
+    const std::string place =
+        "[" + examples::format_exact(centre[0]) + ", " + examples::format_exact(centre[1]) + "]";
     for (int k = 0; k < 2; ++k)
-      examples::require(radius < centre[k] && centre[k] + radius < pipe[k], "cylinder.radius",
-                        radius, "so small that the cylinder lies inside the pipe");
+      examples::require(radius < centre[k] && centre[k] + radius < pipe[k], "cylinder.centre",
+                        place,
+                        "so far inside the pipe that the cylinder, of radius " +
+                            examples::length_text(radius) + ", touches no end or wall");
   }
   bool operator==(const Flow&) const = default;
 };

@@ -138,10 +138,6 @@ class Reader {
 
 }  // namespace
 
-bool answers(const std::string& word, const std::string& question) {
-  return word == question || (question == "--help" && word == "-h");
-}
-
 Words read_words(int argc, const char* const* argv, std::deque<Parameter>& parameters,
                  Complaints& complaints) {
   return Reader({argv + std::min(argc, 1), argv + argc}, parameters, complaints).read();

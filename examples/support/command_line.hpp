@@ -26,9 +26,6 @@ struct Words {
   std::optional<std::string> file{};
 };
 
-/// Whether a word answers for itself, whatever else is said: --help, --version or --list-params.
-bool answers(const std::string& word, const std::string& question);
-
 /// Reads all words, each mistake becomes a complaint.
 Words read_words(int argc, const char* const* argv, std::deque<Parameter>& parameters,
                  Complaints& complaints);
