@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Preloaded into a program, makes the n-th call of write, fsync, close or rename on files below the
+// folder FAIL_IN fail: n is FAIL_AT, the error FAIL_WITH, where 0 means half of what was to be
+// written.
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <dlfcn.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+namespace {
+
+int calls = 0;
+
+int error_number() {
+  const char* with = std::getenv("FAIL_WITH");
+  return with == nullptr ? EIO : std::atoi(with);
+}
+
+bool is_below(const char* path) {
+  const char* folder = std::getenv("FAIL_IN");
+  return folder != nullptr && std::strncmp(path, folder, std::strlen(folder)) == 0;
+}
+
+bool is_below(int file) {
+  char path[4096];
+  const ssize_t length =
+      ::readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), path, sizeof path - 1);
+  if (length < 0) return false;
+  path[length] = '\0';
+  return is_below(path);
+}
+
+/// Counts a call, and whether it is the one to fail.
+bool fails() {
+  const char* at = std::getenv("FAIL_AT");
+  return at != nullptr && ++calls == std::atoi(at);
+}
+
+template <class Function>
+Function* real(Function* /*same type*/, const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
+}
+
+int failed() {
+  errno = error_number();
+  return -1;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int file, const void* data, size_t size) {
+  const bool fail = is_below(file) && fails();
+  if (fail && error_number() != 0) return failed();
+  return real(write, "write")(file, data, fail && size > 1 ? size / 2 : size);
+}
+
+int fsync(int file) {
+  if (is_below(file) && error_number() != 0 && fails()) return failed();
+  return real(fsync, "fsync")(file);
+}
+
+int close(int file) {
+  const bool fail = error_number() != 0 && is_below(file) && fails();
+  const int result = real(close, "close")(file);
+  return fail ? failed() : result;
+}
+
+int rename(const char* from, const char* to) noexcept {
+  if (is_below(to) && error_number() == EIO && fails()) return failed();
+  return real(rename, "rename")(from, to);
+}
+}
