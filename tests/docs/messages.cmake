@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -P messages.cmake <root of the repository>
-# Every id of a message, such as "E301" or "W12" in the sources, is a heading of docs/messages.md,
+# Every id of a message, such as "E301" or "W030 no gas" in the sources, is a heading of docs/messages.md,
 # and every heading with an id is one of a message.
 cmake_minimum_required(VERSION 3.22)
 set(root ${CMAKE_ARGV3})
@@ -8,14 +8,14 @@ file(GLOB_RECURSE sources RELATIVE ${root}
   ${root}/include/*.hpp ${root}/examples/support/*.hpp ${root}/examples/support/*.cpp)
 set(used)
 foreach(source IN LISTS sources)
-  file(STRINGS ${root}/${source} lines REGEX "\"[EW][0-9][0-9]+\"")
+  file(STRINGS ${root}/${source} lines REGEX "\"[EW][0-9][0-9]+[\" ]")
   foreach(line IN LISTS lines)
     if(line MATCHES "^ *//")
       continue()  # a comment may name an id as an example
     endif()
-    string(REGEX MATCHALL "\"[EW][0-9][0-9]+\"" found "${line}")
+    string(REGEX MATCHALL "\"[EW][0-9][0-9]+[\" ]" found "${line}")
     foreach(id IN LISTS found)
-      string(REPLACE "\"" "" id ${id})
+      string(REGEX MATCH "[EW][0-9]+" id ${id})
       list(APPEND used ${id})
       list(APPEND places_${id} ${source})
     endforeach()

@@ -5,6 +5,7 @@
 #   <!-- compile: page -->                all of these of a page, one after the other, are a program
 #   <!-- compile: file -->                declarations, in a namespace of the page, after fragments.hpp
 #   <!-- compile: body, PRELUDE -->       statements, after those of preludes/PRELUDE.inc
+#   <!-- compile: body, PRELUDE, if TARGET -->  the same, where there is such a target
 #   <!-- compile: as examples/x.cpp -->   stands in this file, line for line
 #   <!-- compile: no, REASON -->          is not compiled
 
@@ -63,7 +64,11 @@ function(sphmbs_take_snippets page folder)
       string(APPEND whole "${place}${code}")
     elseif(marker STREQUAL "file")
       string(APPEND declarations "${place}${code}")
-    elseif(marker MATCHES "^body, ([a-z_]+)$")
+    elseif(marker MATCHES "^body, ([a-z_]+)(, if ([a-z0-9:]+))?$")
+      if(CMAKE_MATCH_3 AND NOT TARGET ${CMAKE_MATCH_3})
+        list(APPEND skipped "${here} (needs ${CMAKE_MATCH_3})")
+        continue()
+      endif()
       string(APPEND declarations "void statements_${line}() {\n"
         "#include \"preludes/${CMAKE_MATCH_1}.inc\"\n${place}${code}}\n")
     elseif(marker MATCHES "^as ([a-z_/.]+)$")

@@ -23,7 +23,7 @@ namespace sphmbs::coupling {
 template <class System>
 class Leaks {
  public:
-  static constexpr int dim = System::dim;
+  static constexpr int dim = System::dim;  ///< dimension of space
 
   /// @param most  gas particles that may have gone through the surface of bodies
   explicit Leaks(System& system, std::size_t most = std::numeric_limits<std::size_t>::max())

@@ -14,8 +14,8 @@ namespace sphmbs::geometry {
 
 /// One sentence about something that a user should know but that stops nothing.
 struct Advice {
-  std::string_view id;  // heading in docs/messages.md
-  std::string text;
+  std::string_view id;  ///< heading in docs/messages.md
+  std::string text;     ///< the sentence, without the id
 };
 
 namespace detail {

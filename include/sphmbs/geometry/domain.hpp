@@ -69,6 +69,7 @@ struct Domain {
   Box<Dim> box;  ///< [m]; what lies outside is bounded by virtual particles, or is a periodic image
   /// Along which axes the box repeats itself.
   std::array<bool, Dim> periodic{};
+  /// What becomes of gas that leaves the box along the other axes.
   Escape escape = Escape::allow;
 
   /// The periodic axes, for loops.

@@ -19,6 +19,7 @@ Vec<Dim> nearest_on_segment(const Vec<Dim>& a, const Vec<Dim>& b, const Vec<Dim>
   return a + s * along;
 }
 
+/// The point of a segment that is nearest to x [m].
 inline Vec<2> nearest_on(const Facet<2>& f, const Vec<2>& x) {
   return nearest_on_segment(f[0], f[1], x);
 }

@@ -17,10 +17,11 @@ namespace sphmbs::geometry {
 template <int Dim>
 class FacetTree {
  public:
+  /// Where the surface is nearest to a point.
   struct Nearest {
-    Vec<Dim> point;     // of the surface [m]
-    double distance2;   // [m^2]
-    std::size_t facet;  // for `facet`
+    Vec<Dim> point;     ///< of the surface [m]
+    double distance2;   ///< to it, squared [m^2]
+    std::size_t facet;  ///< that it lies on, for `facet`
   };
 
   /// @param facets  checked; those without extent, of which no direction is known, are left out
@@ -33,7 +34,9 @@ class FacetTree {
     build(0, facets_.size());
   }
 
+  /// Number of facets in the tree.
   std::size_t size() const { return facets_.size(); }
+  /// Corners of a facet [m], in the order of the tree, which is not that of the facets given.
   const Facet<Dim>& facet(std::size_t i) const { return facets_[i]; }
 
   /// Box around all facets; of a tree that is not empty.

@@ -14,9 +14,9 @@ namespace sphmbs::geometry {
 
 /// What is inside where a surface winds around a point more than once.
 enum class Fill {
-  any,  // all that it winds around: solids that overlap are one
-  odd   // what it winds around an odd number of times: an outline within another one is a hole,
-        // whichever way round it goes
+  any,  ///< all that it winds around: solids that overlap are one
+  odd   ///< what it winds around an odd number of times: an outline within another one is a hole,
+        ///< whichever way round it goes
 };
 
 /// Solid within facets: a polygon with holes, a body from an STL file. Its distance is exact.
@@ -26,7 +26,7 @@ enum class Fill {
 template <int Dim>
 class Faceted {
  public:
-  static constexpr int dim = Dim;
+  static constexpr int dim = Dim;  ///< dimension of space
 
   /// @throws InvalidInput for facets that are not finite, or none that has an extent.
   explicit Faceted(const Facets<Dim>& facets, Fill fill = Dim == 2 ? Fill::odd : Fill::any)
@@ -38,6 +38,7 @@ class Faceted {
     return inside(x) ? -d : d;
   }
 
+  /// Whether the surface winds around x, counted as `Fill` says.
   bool inside(const Vec<Dim>& x) const {
     for (int k = 0; k < Dim; ++k)
       if (!(x[k] >= box().lower[k] && x[k] <= box().upper[k])) return false;
@@ -85,8 +86,9 @@ class Faceted {
 
 static_assert(Shape<Faceted<2>> && Shape<Faceted<3>>);
 
-/// A plane figure within outlines, and a body within triangles.
+/// A plane figure within outlines.
 using Outline = Faceted<2>;
+/// A body within triangles.
 using TriangleMesh = Faceted<3>;
 
 }  // namespace sphmbs::geometry

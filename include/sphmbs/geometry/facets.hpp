@@ -26,13 +26,16 @@ using Facet = std::array<Vec<Dim>, Dim>;
 template <int Dim>
 struct Facets {
   static_assert(Dim == 2 || Dim == 3, "facets are segments in the plane or triangles in space");
+  /// Corners of a facet: places in `points`.
   using Corners = std::array<std::uint32_t, Dim>;
 
-  std::vector<Vec<Dim>> points;  // [m]
-  std::vector<Corners> corners;  // one entry a facet
+  std::vector<Vec<Dim>> points;  ///< corners of facets, shared or not [m]
+  std::vector<Corners> corners;  ///< one entry a facet
 
+  /// Number of facets.
   std::size_t size() const { return corners.size(); }
 
+  /// Where the corners of a facet are [m].
   Facet<Dim> operator[](std::size_t facet) const {
     Facet<Dim> places;
     for (std::size_t k = 0; k < Dim; ++k) places[k] = points[corners[facet][k]];
@@ -69,7 +72,7 @@ struct Facets {
                              "E154");
   }
 
-  static constexpr double farthest = 1e30;  // coordinate [m]
+  static constexpr double farthest = 1e30;  ///< coordinate that is allowed [m]
 };
 
 /// Normal of a facet towards the outside, as long as the facet is large [m], [m^2].

@@ -19,25 +19,26 @@ template <int Dim>
 struct Inspection {
   /// Rim where the surface ends: of a hole, or of a sheet.
   struct Hole {
-    std::size_t edges = 0;  // open ones; in the plane an open end of an outline
-    double rim = 0;         // length of all of them [m]
-    Vec<Dim> at = {};       // the middle of the box around them [m]
-    double size = 0;        // the diagonal of that box [m]
+    std::size_t edges = 0;  ///< open ones; in the plane an open end of an outline
+    double rim = 0;         ///< length of all of them [m]
+    Vec<Dim> at = {};       ///< the middle of the box around them [m]
+    double size = 0;        ///< the diagonal of that box [m]
   };
 
-  std::size_t facets = 0;
-  Box<Dim> box = {};              // around the surface [m]
-  double volume = 0;              // negative where the surface is inside out [m^3], [m^2]
-  std::vector<Hole> holes;        // the largest first
-  std::size_t branched = 0;       // edges of more than two facets
-  std::size_t contradicting = 0;  // edges whose two facets disagree about which side is inside
-  std::size_t duplicate = 0;      // facets that are there already, either way round
-  std::size_t degenerate = 0;     // facets of which corners coincide
+  std::size_t facets = 0;         ///< all that were given
+  Box<Dim> box = {};              ///< around the surface [m]
+  double volume = 0;              ///< negative where the surface is inside out [m^3], [m^2]
+  std::vector<Hole> holes;        ///< the largest first
+  std::size_t branched = 0;       ///< edges of more than two facets
+  std::size_t contradicting = 0;  ///< edges whose two facets disagree about which side is inside
+  std::size_t duplicate = 0;      ///< facets that are there already, either way round
+  std::size_t degenerate = 0;     ///< facets of which corners coincide
 
   /// Closed, with one inside.
   bool watertight() const {
     return facets > 0 && holes.empty() && branched == 0 && contradicting == 0;
   }
+  /// Whether the normals of the facets point inwards on the whole.
   bool inside_out() const { return volume < 0; }
 };
 

@@ -27,9 +27,9 @@ std::vector<Vec<Dim>> points_along(const Vec<Dim>& from, const Vec<Dim>& to, int
 /// Points of a rectangle, row after row; the borders belong to it.
 template <int Dim>
 struct PlanePoints {
-  std::vector<Vec<Dim>> points;
-  int along_row = 0;
-  int rows = 0;
+  std::vector<Vec<Dim>> points;  ///< row after row [m]
+  int along_row = 0;             ///< points of a row
+  int rows = 0;                  ///< number of rows
 };
 
 /// Points on a plane rectangle, about evenly spaced along both sides.

@@ -50,6 +50,7 @@ struct Outside {
   A a;                                ///< the first solid
   /// Signed distance, or less [m].
   double distance(Vec<dim> x) const { return -a.distance(x); }
+  /// Slope of the distance, a unit vector.
   Vec<dim> normal(Vec<dim> x) const requires KnowsNormal<A> { return -1.0 * a.normal(x); }
 };
 

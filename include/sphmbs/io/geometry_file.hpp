@@ -19,8 +19,12 @@
 /// What the readers of geometry have in common.
 namespace sphmbs::io {
 
-/// Units of length that files come in, for the readers' parameter `unit` [m].
-inline constexpr double metre = 1, centimetre = 0.01, millimetre = 0.001, inch = 0.0254;
+///@{ A unit of length that files come in, for the readers' parameter `unit` [m].
+inline constexpr double metre = 1;
+inline constexpr double centimetre = 0.01;
+inline constexpr double millimetre = 0.001;
+inline constexpr double inch = 0.0254;
+///@}
 
 namespace detail {
 

@@ -22,8 +22,8 @@ namespace sphmbs::io {
 
 /// Points and their quantities at one time: the gas, or a Mesh of bodies. A view.
 struct Hdf5Part {
-  std::string name;                    // of its group in the file: "gas"
-  std::span<const double> points_xyz;  // x, y, z of each [m]; see points_xyz
+  std::string name;                    ///< of its group in the file: "gas"
+  std::span<const double> points_xyz;  ///< x, y, z of each [m]; see points_xyz
   /// Quantities of the points. From the name "pressure [Pa]" comes the data set "pressure" with
   /// "Pa" as attribute `unit`.
   std::span<const PointArray> arrays;

@@ -12,8 +12,9 @@ namespace sphmbs::io {
 
 /// How a path is read.
 struct PathOptions {
-  double unit = metre;     // of the file's coordinates [m]
-  double flatness = 1e-4;  // distance of curves from the pieces they become, by the path's size [-]
+  double unit = metre;  ///< of the file's coordinates [m]
+  /// Distance of curves from the pieces that they become, by the path's size [-].
+  double flatness = 1e-4;
 };
 
 namespace detail {

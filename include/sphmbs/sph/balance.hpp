@@ -21,13 +21,16 @@ namespace sphmbs::sph {
 /// What a gas has too much of, or limits for the sizes of that, as shares: mass of the mass,
 /// momentum of sqrt(2 m E), energy of the energy [-].
 struct Drift {
-  double mass = 0;
-  double momentum = 0;
-  double energy = 0;
+  double mass = 0;      ///< by the mass at the start [-]
+  double momentum = 0;  ///< by sqrt(2 m E), m and E as they are now [-]
+  double energy = 0;    ///< by the energy at the start [-]
 };
 
+/// How much may be unaccounted for before a balance warns, and before it ends the run.
 struct BalanceLimits {
+  /// Beyond these there is a warning.
   Drift warn = {.mass = 1e-10, .momentum = 1e-6, .energy = 1e-2};
+  /// Beyond these the run ends.
   Drift stop = {.mass = 1e-6, .momentum = 1e-2, .energy = 0.2};
 };
 
@@ -40,7 +43,7 @@ struct BalanceLimits {
 template <class Fluid>
 class Balance {
  public:
-  static constexpr int dim = Fluid::dim;
+  static constexpr int dim = Fluid::dim;  ///< dimension of space
 
   /// The start is now. @throws InvalidInput for limits that are not positive.
   explicit Balance(Fluid& fluid, const BalanceLimits& limits = {})

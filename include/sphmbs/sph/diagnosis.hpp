@@ -30,16 +30,18 @@ inline Moment moment_of_stage(std::uint64_t steps, double time, double dt, doubl
 
 /// What went wrong with a particle, what usually causes it, and what to try.
 struct Finding {
-  std::string_view id;  // of the message
-  std::string what;
-  std::string_view likely;
-  std::string_view advice;
+  std::string_view id;      ///< of the message
+  std::string what;         ///< is wrong, such as "density not positive"
+  std::string_view likely;  ///< the usual cause
+  std::string_view advice;  ///< what to try
 };
 
 /// One particle as it is at this stage, on the host, and how it was at the beginning of the step.
 template <int Dim, class T, class Policy>
 class Culprit {
  public:
+  /// Fetches what is known of the particle with this id, which must be there, and looks for the
+  /// nearest virtual particle.
   Culprit(particles::Particles<Dim, T, Policy>& particles, std::uint32_t id) : id_(id) {
     const auto fields = particles.fields();
     const auto ids = read(fields.id, particles.size());

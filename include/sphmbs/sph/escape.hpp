@@ -14,11 +14,12 @@ namespace sphmbs::sph {
 /// Gas outside the box along axes that are not periodic.
 template <int Dim>
 struct Outside {
-  Passed<Dim> passed;
-  std::uint32_t id = std::numeric_limits<std::uint32_t>::max();  // the lowest
-  double lengths = 0;          // how far the farthest is, in lengths of the box along that axis [-]
-  std::uint32_t farthest = 0;  // its id
+  Passed<Dim> passed;  ///< number, mass, volume, momentum and energy of it
+  std::uint32_t id = std::numeric_limits<std::uint32_t>::max();  ///< the lowest
+  double lengths = 0;  ///< how far the farthest is, in lengths of the box along that axis [-]
+  std::uint32_t farthest = 0;  ///< its id
 
+  /// Takes another one in, as `execution::reduce` asks.
   SPHMBS_INLINE void combine(const Outside& o) {
     passed.combine(o.passed);
     id = o.id < id ? o.id : id;
@@ -28,12 +29,14 @@ struct Outside {
   }
 };
 
+/// Tells of a particle whether it is gas outside the box.
 template <int Dim, class T>
 struct LookOutside {
-  particles::FieldsView<Dim, T> fields;
-  Vec<Dim> middle;   // of the box [m]
-  Vec<Dim> inverse;  // of its length, 0 along periodic axes [1/m]
+  particles::FieldsView<Dim, T> fields;  ///< of all particles
+  Vec<Dim> middle;                       ///< of the box [m]
+  Vec<Dim> inverse;                      ///< of its length, 0 along periodic axes [1/m]
 
+  /// Of these particles, by the box and the periodic axes of a domain.
   LookOutside(const particles::FieldsView<Dim, T>& f, const geometry::Domain<Dim>& domain)
       : fields(f) {
     for (int k = 0; k < Dim; ++k) {
@@ -53,6 +56,7 @@ struct LookOutside {
     return most;
   }
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE Outside<Dim> operator()(std::size_t i) const {
     Outside<Dim> found;
     found.lengths = lengths(i);

@@ -15,25 +15,25 @@ namespace sphmbs::sph {
 /// to one support radius. All is NaN where no gas is seen.
 template <int Dim>
 struct LocalGas {
-  double rho;  // density [kg/m^3]
-  double p;    // pressure [Pa]
-  double e;    // specific internal energy [J/kg]
-  Vec<Dim> v;  // velocity [m/s]
+  double rho;  ///< density [kg/m^3]
+  double p;    ///< pressure [Pa]
+  double e;    ///< specific internal energy [J/kg]
+  Vec<Dim> v;  ///< velocity [m/s]
   /// Sum of the weights [-]: about 1 inside gas, a half at a wall, less behind it, 0 without gas.
   double share;
-  std::uint32_t seen;  // gas particles that contribute
+  std::uint32_t seen;  ///< gas particles that contribute
 };
 
 /// The gas whose particles are in a box; particles of openings are not in the gas here, so that
 /// boxes that fill the domain add up to its totals. Planar gas per metre of depth.
 template <int Dim>
 struct GasInside {
-  std::uint64_t particles = 0;
-  double mass = 0;         // [kg]
-  double volume = 0;       // sum m / rho [m^3]
-  Vec<Dim> momentum = {};  // [kg m/s]
-  double kinetic = 0;      // energy [J]
-  double internal = 0;     // energy [J]
+  std::uint64_t particles = 0;  ///< whose centres are in the box
+  double mass = 0;              ///< [kg]
+  double volume = 0;            ///< sum m / rho [m^3]
+  Vec<Dim> momentum = {};       ///< [kg m/s]
+  double kinetic = 0;           ///< energy [J]
+  double internal = 0;          ///< energy [J]
   /// Means by volume; NaN where no particle is inside. Its share is not one: it is NaN.
   LocalGas<Dim> mean;
 };

@@ -16,17 +16,19 @@ namespace sphmbs::sph {
 /// a few times, and steps that stay tiny end the run.
 class Pace {
  public:
-  static constexpr int most_retries = 8;
-  static constexpr int most_tiny = 20;       // steps in a row
-  static constexpr double tiny = 1e-6;       // of the first step, where no floor is given [-]
-  static constexpr double most_parts = 256;  // that a fixed step is divided into
+  static constexpr int most_retries = 8;     ///< of one step
+  static constexpr int most_tiny = 20;       ///< steps in a row
+  static constexpr double tiny = 1e-6;       ///< of the first step, where no floor is given [-]
+  static constexpr double most_parts = 256;  ///< that a fixed step is divided into
 
   /// @param floor  below which a step is tiny [s]
   explicit Pace(const std::optional<double>& floor) : floor_(floor) {}
 
   /// No try may be longer than this [s].
   double longest() const { return longest_; }
+  /// Whether the last try failed.
   bool retrying() const { return retries_ > 0; }
+  /// Whether no more tries are left.
   bool exhausted() const { return retries_ >= most_retries; }
 
   /// A try of length dt failed and was undone.

@@ -17,13 +17,15 @@ namespace sphmbs::sph {
 /// Points sorted into the cells of a grid around them, as loop bodies see them.
 template <int Dim>
 struct PointGridView {
-  Vec<Dim> lower;         // of all points [m]
-  Vec<Dim> upper;         // [m]
-  Vec<Dim> inverse_side;  // of a cell [1/m]
-  int count[Dim];         // of cells
+  Vec<Dim> lower;         ///< of all points [m]
+  Vec<Dim> upper;         ///< of all points [m]
+  Vec<Dim> inverse_side;  ///< of a cell [1/m]
+  int count[Dim];         ///< of cells along each axis
+  /// Of each cell its first point; one more entry holds the end.
   const std::uint32_t* first;
-  const Vec<Dim>* points;  // cell after cell, in rows along the first axis
+  const Vec<Dim>* points;  ///< cell after cell, in rows along the first axis
 
+  /// The cell along an axis for a coordinate x [m], the nearest one for places outside the grid.
   SPHMBS_INLINE int along(int axis, double x) const {
     const double s = (x - lower[axis]) * inverse_side[axis];
     const double last = count[axis] - 1;
@@ -71,10 +73,12 @@ class PointGrid {
     sort(points);
   }
 
+  /// Number of points.
   std::size_t size() const { return place_.size(); }
   /// The place among the points given of each point, in the order of the cells.
   const std::vector<std::uint32_t>& place() const { return place_; }
 
+  /// For loop bodies; valid as long as the grid.
   PointGridView<Dim> view() const {
     PointGridView<Dim> view = view_;
     view.first = first_.data();

@@ -16,8 +16,9 @@ namespace sphmbs::sph {
 /// `ProbeField<2>{"stagnation_pressure", "Pa", [](const LocalGas<2>& gas) { ... }}`.
 template <int Dim>
 struct ProbeField {
-  std::string name;
-  std::string unit;
+  std::string name;  ///< for the head of a column
+  std::string unit;  ///< such as "Pa"; "-" for none
+  /// Its number, from the gas at a place.
   std::function<double(const LocalGas<Dim>&)> value;
 };
 

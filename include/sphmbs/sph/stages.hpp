@@ -152,12 +152,13 @@ struct WriteRecords {
 /// make not physical or take too far.
 template <class Scheme, class T, class Motion>
 struct JudgeUpdate {
-  Advance<Scheme, T, Motion> advance;
-  Scheme scheme;
-  T least;
-  double fastest_squared;
-  std::uint32_t* culprit;
+  Advance<Scheme, T, Motion> advance;  ///< leads to the new state
+  Scheme scheme;                       ///< with the numbers of its policies
+  T least;                 ///< share of density and of smoothing length that must be left [-]
+  double fastest_squared;  ///< of the speed of gas [m^2/s^2]
+  std::uint32_t* culprit;  ///< lowest id of a particle that may not do its update
 
+  /// For particle i: the body of a loop.
   SPHMBS_INLINE void operator()(std::size_t i) const {
     const auto& fields = advance.fields;
     const auto y = advance(i);
