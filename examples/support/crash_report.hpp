@@ -45,11 +45,12 @@ bool write_culprits(const std::filesystem::path& path, Fluid& fluid,
     const double reach = 3 * Fluid::SchemeType::Kernel::support * static_cast<double>(h[c]);
     return square <= reach * reach;
   };
-  for (std::size_t i = 0; i < n; ++i) {
-    bool take = is_culprit[i] != 0;
-    for (std::size_t c = 0; c < n && !take; ++c) take = is_culprit[c] != 0 && near(i, c);
-    if (take) chosen.push_back(i);
-  }
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < n; ++i)
+    if (is_culprit[i] != 0) found.push_back(i);
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::any_of(found.begin(), found.end(), [&](std::size_t c) { return near(i, c); }))
+      chosen.push_back(i);
   if (chosen.empty()) return false;
 
   const auto pick = [&]<class T>(const std::vector<T>& all) {

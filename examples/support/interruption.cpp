@@ -22,6 +22,9 @@ extern "C" void note_end(int signal) {
 extern "C" void note_save(int) { save_asked = 1; }
 
 void handle(int signal, void (*handler)(int)) {
+  struct sigaction before {};
+  ::sigaction(signal, nullptr, &before);
+  if (handler == note_end && before.sa_handler == SIG_IGN) return;  // as under nohup
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
@@ -41,7 +44,7 @@ Interruption::Interruption() {
 
 Interruption::~Interruption() {
   for (const int signal : ending) handle(signal, SIG_DFL);
-  handle(SIGUSR1, SIG_DFL);
+  handle(SIGUSR1, SIG_IGN);
 }
 
 int Interruption::end() const { return end_signal; }

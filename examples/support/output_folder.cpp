@@ -142,16 +142,18 @@ bool prepare_output(const Settings& settings) {
     throw OutputError("cannot create " + settings.output.string() + ": " + error.message());
   }
   if (settings.lock) settings.lock->acquire(settings.output);
-  if (!settings.used.empty()) {
-    const fs::path file = settings.output / "used.toml";
-    errno = 0;
-    std::ofstream stream(file, std::ios::binary);
-    if (!stream.write(settings.used.data(), static_cast<std::streamsize>(settings.used.size()))
-             .flush()) {
-      throw OutputError("cannot write " + file.string() + ": " + reason());
-    }
-  }
   return created;
+}
+
+void write_used(const Settings& settings) {
+  if (settings.used.empty()) return;
+  const fs::path file = settings.output / "used.toml";
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary);
+  if (!stream.write(settings.used.data(), static_cast<std::streamsize>(settings.used.size()))
+           .flush()) {
+    throw OutputError("cannot write " + file.string() + ": " + reason());
+  }
 }
 
 }  // namespace sphmbs::examples

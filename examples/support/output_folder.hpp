@@ -35,9 +35,13 @@ class OutputLock {
 /// nothing.
 std::optional<std::string> fault_of_output(const std::filesystem::path& path, bool overwrite);
 
-/// Creates the directory of the results, once all input is accepted, locks it and writes used.toml;
-/// other files stay. Returns whether it is new. Throws OutputError with path and reason, and
-/// InvalidInput if another run is at work in it.
+/// Creates the directory of the results, once all input is accepted, and locks it; files stay.
+/// Returns whether it is new. Throws OutputError with path and reason, and InvalidInput if another
+/// run is at work in it.
 bool prepare_output(const Settings& settings);
+
+/// Writes used.toml, once nothing is left that could be refused. Throws OutputError with path and
+/// reason.
+void write_used(const Settings& settings);
 
 }  // namespace sphmbs::examples

@@ -74,7 +74,10 @@ class Probes {
       Probe& probe = probes_[k];
       probe.interval = probe.file.spec().interval > 0 ? probe.file.spec().interval : interval;
       std::optional<ProbeProgress> from;
-      if (!resume.empty()) from = resume[k];
+      if (!resume.empty()) {
+        from = resume[k];  // perhaps with another interval
+        from->intervals = from->sampled < 0 ? 0 : next_interval(from->sampled, probe.interval);
+      }
       probe.file.begin(folder, comment, columns(probe), from);
     }
   }
@@ -123,7 +126,7 @@ class Probes {
       tell_blind(*probe, blind, report);
       ProbeProgress& progress = probe->file.progress();
       progress.blind += blind;
-      progress.intervals = static_cast<std::int64_t>(std::floor(time / probe->interval + 1e-9)) + 1;
+      progress.intervals = next_interval(time, probe->interval);
       probe->file.write(time, values);
     }
   }
@@ -153,6 +156,10 @@ class Probes {
   }
 
  private:
+  static std::int64_t next_interval(double time, double interval) {
+    return static_cast<std::int64_t>(std::floor(time / interval + 1e-9)) + 1;
+  }
+
   struct Probe {
     ProbeFile file;
     std::vector<Field> fields;

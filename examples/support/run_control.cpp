@@ -8,7 +8,9 @@
 namespace sphmbs::examples {
 
 RunControl::RunControl(const Settings& settings)
-    : settings_(settings), stop_file_(settings.output / "stop") {
+    : settings_(settings), stop_file_(settings.output / "stop") {}
+
+void RunControl::begin() {
   std::error_code ignored;
   std::filesystem::remove(stop_file_, ignored);
 }

@@ -33,6 +33,9 @@ class RunControl {
  public:
   explicit RunControl(const Settings& settings);
 
+  /// The steps begin: a file `stop` of an earlier run is none of this one.
+  void begin();
+
   struct Decision {
     bool save = false;
     std::string stop = {};  // why the run ends; empty where it goes on

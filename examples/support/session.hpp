@@ -48,6 +48,7 @@ class Session {
         system_(system),
         display_(system),
         probes_(probes_of(settings.probes, system)),
+        control_(settings_),
         report_(settings.quiet) {
     for (const auto& column : display_.columns()) history_.add(column.name, column.unit);
     sampled_.push_back([this](std::vector<double>& row) { display_.sample(row); });
@@ -98,7 +99,6 @@ class Session {
     const Clock::time_point begin = Clock::now();
     SessionCheckpoints checkpoints(settings_, name_, identity());
     const auto from = settings_.resume ? checkpoints.open(report_) : nullptr;
-    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     display_.prepare();
 
     Every sampling(
@@ -112,6 +112,8 @@ class Session {
     written_ = {list, "history.csv", "view.py"};
     if (!traced_.empty()) written_.push_back("trajectories.csv");
     if (settings_.check) check(is_new, seconds_since(begin));
+    write_used(settings_);
+    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     std::vector<ProbeProgress> probed;
     const auto show = [&](auto& archive) {
       if constexpr (!std::remove_cvref_t<decltype(archive)>::restores) probed = probes_.progress();
@@ -146,13 +148,13 @@ class Session {
       write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
     probes_.begin(settings_.output, comment, settings_.until / samples, probed);
 
-    RunControl control(settings_);
+    control_.begin();
     RunControl::Decision decision;
     std::filesystem::path saved;
     BetweenSteps boundary([&](System&) {
-      decision = control.decide(steps());
+      decision = control_.decide(steps());
       wall_seconds_ = earlier + seconds_since(begin);
-      if (decision.save) timed([&] { saved = checkpoints.save(steps(), report_, control, show); });
+      if (decision.save) timed([&] { saved = checkpoints.save(steps(), report_, control_, show); });
       return decision.stop.empty();
     });
     steps_sent_ -= sent();
@@ -316,11 +318,10 @@ class Session {
     std::string text = failure.what();
     try {
       auto files = write_crash_report(file("crash"), system_, failure);
-      if constexpr (Undoable<System>) system_.undo();
       files.push_back(checkpoints.save_in(file("crash"), steps(), show));
       text += "\n  wrote";
       for (const auto& path : files) text += " " + path.string();
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       text += std::string("\n  no report of it: ") + error.what();
     }
     throw NumericalFailure(text, failure.id, failure.particles);
@@ -428,6 +429,7 @@ class Session {
   System& system_;
   Display<System> display_;
   decltype(probes_of({}, std::declval<System&>())) probes_;
+  RunControl control_;
   Report report_;
   std::vector<BannerLine> notes_;
   History history_;

@@ -21,8 +21,12 @@ io::Identity parameters_in(const std::string& text) {
   io::Identity all;
   std::istringstream lines(text);
   std::string table;
+  int entries = 0;  // of lists of tables
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('[')) table = line.substr(1, line.find(']') - 1) + ".";
+    if (line.starts_with("[["))
+      table = line.substr(2, line.find(']') - 2) + "." + std::to_string(entries++) + ".";
+    else if (line.starts_with('['))
+      table = line.substr(1, line.find(']') - 1) + ".";
     const std::size_t equals = line.find(" = ");
     if (line.empty() || line.starts_with('#') || equals == std::string::npos) continue;
     bool quoted = false;
@@ -79,12 +83,14 @@ std::unique_ptr<io::CheckpointFile> SessionCheckpoints::open(Report& report) con
                            "; start without it, or name one with --resume FILE",
                        "E040");
   io::require_same_identity(*file, io::Checkpoints::identity_of(*file), identity_, is_harmless);
+  checkpoints_.set_aside_others(file->path());
   return file;
 }
 
 void SessionCheckpoints::forget_earlier() const {
   std::error_code ignored;
   for (const auto& path : checkpoints_.list()) std::filesystem::remove(path, ignored);
+  checkpoints_.remove_unfinished();
 }
 
 }  // namespace sphmbs::examples

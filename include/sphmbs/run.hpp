@@ -206,7 +206,7 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
     expects(schedule.step || integrator.accuracy, "step", "none",
             "given [s], or the integrator has an accuracy");
   const auto observe = [&]([[maybe_unused]] bool last) { (observers.observe(system, last), ...); };
-  const auto may_go_on = [&](auto& observer) {
+  [[maybe_unused]] const auto may_go_on = [&](auto& observer) {
     if constexpr (requires { observer.between_steps(system); })
       return observer.between_steps(system);
     else
@@ -255,12 +255,14 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
       try {
         integrator.step(system, choose_step);
       } catch (const BeyondModel&) {
+        if (tried && system.time() == begin) system.undo();
         throw;
       } catch (const NumericalFailure& failure) {
         // Of the state itself, or of what a step has led to.
         if (!tried || system.time() != begin) throw;
-        if (pace.exhausted()) throw sph::after_retries(failure);
         system.undo();
+        if (pace.exhausted() || pace.too_small(*tried / 2, due - begin, schedule.step.has_value()))
+          throw sph::after_retries(failure);
         pace.failed(*tried);
         continue;
       }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,8 +72,28 @@ class Checkpoints {
     CheckpointFile written(file.close());
     file.finish();
     const auto all = list();
-    for (std::size_t k = keep_; k < all.size(); ++k) std::filesystem::remove(all[k], error);
+    for (std::size_t k = keep_; k < all.size(); ++k)
+      if (all[k] != path) std::filesystem::remove(all[k], error);
     return path;
+  }
+
+  /// For a run that goes on from a checkpoint: those of later steps, which are of another course of
+  /// the run or damaged, get names that end in .aside, and what a run that was killed left
+  /// unfinished goes.
+  void set_aside_others(const std::filesystem::path& from) const {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : list())
+      if (path.filename() > from.filename() || !is_name(from))
+        std::filesystem::rename(path, path.string() + ".aside", ignored);
+    remove_unfinished();
+  }
+
+  /// Removes files of writes that never ended. No other run may write into the folder.
+  void remove_unfinished() const {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
+      if (entry.path().string().find(std::string(extension) + ".tmp.") != std::string::npos)
+        std::filesystem::remove(entry.path(), ignored);
   }
 
   /// Complete or not, newest first.
@@ -80,7 +101,7 @@ class Checkpoints {
     std::vector<std::filesystem::path> all;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder_, error))
-      if (entry.path().extension() == extension) all.push_back(entry.path());
+      if (is_name(entry.path())) all.push_back(entry.path());
     std::sort(all.begin(), all.end(), std::greater<>());
     return all;
   }
@@ -113,6 +134,12 @@ class Checkpoints {
   static std::string name_of(std::uint64_t step) {
     const std::string number = std::to_string(step);
     return "step_" + std::string(20 - number.size(), '0') + number + extension;
+  }
+
+  static bool is_name(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    return name.size() == name_of(0).size() && name.starts_with("step_") &&
+           name.ends_with(extension) && name.find_first_not_of("0123456789", 5) == 25;
   }
 
   std::filesystem::path folder_;

@@ -127,6 +127,12 @@ class Dynamics {
   void visit_state(A& archive) {
     archive("state", state_);
     archive("algorithmic", algorithmic_);
+    if constexpr (A::restores)
+      for (const VectorXd* x : {&state_.q, &state_.v, &state_.vdot, &algorithmic_})
+        if (x->size() != equations_.coordinates() ||
+            state_.lambda.size() != equations_.conditions())
+          throw RefusedCheckpoint("the state of the checkpoint is that of another structure",
+                                  "E405");
     archive("statistics", statistics_);
     archive("last_step", last_step_);
     archive("suggested_step", suggested_step_);

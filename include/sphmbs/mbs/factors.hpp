@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sphmbs/core/archive.hpp>
+#include <sphmbs/core/error.hpp>
 #include <sphmbs/mbs/equations.hpp>
 #include <sphmbs/mbs/equilibrate.hpp>
 #include <sphmbs/mbs/solvers/linear_solver.hpp>
@@ -62,6 +63,9 @@ class Factors {
     std::vector<double> entries(A_.valuePtr(), A_.valuePtr() + A_.nonZeros());
     archive("factors/entries", entries);
     if constexpr (A::restores) {
+      if (static_cast<Eigen::Index>(entries.size()) != A_.nonZeros() || scale_.size() != A_.rows())
+        throw RefusedCheckpoint("the matrix of the checkpoint is that of another structure",
+                                "E405");
       std::copy(entries.begin(), entries.end(), A_.valuePtr());
       solver_.analyse(A_, equations.roles());
       topology_ = equations.topology();

@@ -40,12 +40,16 @@ struct Finding {
 template <int Dim, class T, class Policy>
 class Culprit {
  public:
-  /// Fetches what is known of the particle with this id, which must be there, and looks for the
-  /// nearest virtual particle.
+  /// Fetches what is known of the particle with this id, or of another one where it is no longer
+  /// there, and looks for the nearest virtual particle.
   Culprit(particles::Particles<Dim, T, Policy>& particles, std::uint32_t id) : id_(id) {
     const auto fields = particles.fields();
     const auto ids = read(fields.id, particles.size());
-    const auto i = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    auto i = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    if (i == ids.size()) {
+      i = 0;
+      id_ = ids[0];
+    }
     constexpr auto size = static_cast<std::size_t>(particles::record_size<Dim, T>);
     now_ = particles::load_record<Dim>(read(particles.records() + i * size, size).data(), 0);
     const auto rates = particles.rates();

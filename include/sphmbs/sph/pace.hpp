@@ -31,6 +31,11 @@ class Pace {
   /// Whether no more tries are left.
   bool exhausted() const { return retries_ >= most_retries; }
 
+  /// Whether parts of this length would be too many for what is left of a fixed step.
+  static bool too_small(double part, double left, bool fixed) {
+    return fixed && !(left <= most_parts * part);
+  }
+
   /// A try of length dt failed and was undone.
   void failed(double dt) {
     ++retries_;

@@ -422,6 +422,7 @@ TEST_CASE("a run writes what it used and keeps others out of its directory") {
   const std::string text = out.string();
   const auto work = [&](const Settings& settings) {
     CHECK(prepare_output(settings));
+    write_used(settings);
     CHECK(fs::exists(out / ".lock"));
     std::ostringstream used;
     used << std::ifstream(out / "used.toml").rdbuf();

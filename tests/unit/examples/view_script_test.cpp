@@ -88,7 +88,7 @@ TEST_CASE("view.py finds the files and arrays of a run", "[view]") {
   display.prepare();
   for (const char* number : {"0000", "0001"}) {
     int part = 0;
-    for (const std::string& name : display.write(directory.path, "ball", number))
+    for (const std::string& name : display.write(directory.path, "ball", number, true))
       collection.add(number[3] - '0' + 0.5, name, part++);
   }
   const auto good = shell("python3 " + script + " --check");
