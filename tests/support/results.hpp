@@ -15,7 +15,7 @@ inline std::map<std::string, std::string> results_in(const std::filesystem::path
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
     if (!entry.is_regular_file() || name.starts_with("checkpoint") || name == "summary.json" ||
-        name == "used.toml" || name == ".lock")
+        name == "used.toml" || name == ".lock" || name == "view.py")
       continue;
     files[name] = text_of(entry.path());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Disks that are full, fail or go away, and memory that is not enough: never a damaged file under a
 // final name, and the last good checkpoint stays.
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <string>
@@ -26,7 +27,9 @@ struct Ended {
 Ended run(const test::Scratch& scratch, const Words& more, const test::Surroundings& around = {}) {
   const fs::path log = scratch.path() / "log";
   fs::remove(log);
-  Words words{"--spacing", "0.02", "--until", "0.3", "--no-plots"};
+  Words words{"--until", "0.3", "--no-plots"};
+  if (std::find(more.begin(), more.end(), "--spacing") == more.end())
+    words.insert(words.end(), {"--spacing", "0.02"});
   words.insert(words.end(), more.begin(), more.end());
   test::Process process(program, words, log, around);
   const int code = process.wait();
@@ -48,12 +51,13 @@ void check_checkpoints(const test::Scratch& scratch, const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("no file may grow: the run ends with exit code 5 or goes on", "[fault]") {
-  for (const rlim_t most : {0, 1000, 5000, 20000, 100000}) {
+  for (const rlim_t most : {1000, 5000, 20000}) {
     CAPTURE(most);
     const test::Scratch scratch;
     const fs::path folder = scratch.work() / "run";
-    const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
-                            {.file_size = most});
+    const Ended ended =
+        run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6", "--quiet"},
+            {.file_size = most});
     INFO(ended.log);
     CHECK(ended.code == 5);
     CHECK_THAT(ended.log, Catch::Contains("error E5") && Catch::Contains(folder.string()) &&

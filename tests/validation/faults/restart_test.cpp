@@ -114,8 +114,8 @@ TEST_CASE("any number of threads, changed from part to part, leaves the same fil
 }
 
 TEST_CASE("a run may go on to a later end, but not as another one", "[restart][fault]") {
-  Run run({SPHMBS_SHOCK_TUBE, {"--spacing", "0.01"}});
-  run.start("a", {"--until", "0.1", "--steps", "10"}, 0);
-  run.start("a", {"--until", "0.2", "--resume"}, 0);
+  Run run({SPHMBS_SHOCK_TUBE, {}});
+  run.start("a", {"--spacing", "0.01", "--until", "0.1", "--steps", "10"}, 0);
+  run.start("a", {"--spacing", "0.01", "--until", "0.2", "--resume"}, 0);
   run.start("a", {"--spacing", "0.02", "--until", "0.2", "--resume"}, 4);
 }
