@@ -113,6 +113,7 @@ class Session {
     if (!traced_.empty()) written_.push_back("trajectories.csv");
     if (settings_.check) check(is_new, seconds_since(begin));
     write_used(settings_);
+    control_.begin();
     std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     std::vector<ProbeProgress> probed;
     const auto show = [&](auto& archive) {
@@ -148,7 +149,6 @@ class Session {
       write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
     probes_.begin(settings_.output, comment, settings_.until / samples, probed);
 
-    control_.begin();
     RunControl::Decision decision;
     std::filesystem::path saved;
     BetweenSteps boundary([&](System&) {

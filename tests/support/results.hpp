@@ -9,13 +9,15 @@
 
 namespace test {
 
-/// The files of a run, by name, without those that tell of times on the clock and of checkpoints.
+/// The files of a run, by name, without those that tell of times on the clock, of checkpoints and
+/// of the folder, and without SVG, in which names count the pictures that a process has drawn; PNG
+/// of the same are there.
 inline std::map<std::string, std::string> results_in(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
     if (!entry.is_regular_file() || name.starts_with("checkpoint") || name == "summary.json" ||
-        name == "used.toml" || name == ".lock" || name == "view.py")
+        name == "used.toml" || name == ".lock" || name.ends_with(".svg") || name == "view.py")
       continue;
     files[name] = text_of(entry.path());
   }

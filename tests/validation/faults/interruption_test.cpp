@@ -41,7 +41,10 @@ class Runs {
 
   /// Goes on to the end, from the beginning where nothing was saved.
   void finish() {
-    const bool saved = fs::exists(folder() / "checkpoint");
+    std::error_code none;
+    bool saved = false;
+    for (const auto& entry : fs::directory_iterator(folder() / "checkpoint", none))
+      saved = saved || entry.path().extension() == ".ckpt";
     test::Process last = start({saved ? "--resume" : "--overwrite"});
     const int code = last.wait();
     INFO(log());
