@@ -77,8 +77,8 @@ void check_threads(const Case& what) {
 
 const Case cylinder{SPHMBS_GAS_CYLINDER, {"--spacing", "2", "--until", "0.2"}};
 const Case cavity{SPHMBS_SEALED_CAVITY, {"--spacing", "0.05", "--until", "0.02"}};
-const Case pendulum{SPHMBS_PENDULUM_ON_CABLE, {"--spacing", "0.2", "--until", "0.02"}};
-const Case plates{SPHMBS_FALLING_PLATES, {"--spacing", "0.4", "--until", "0.05"}};
+const Case pendulum{SPHMBS_PENDULUM_ON_CABLE, {"--spacing", "0.1", "--until", "0.05"}};
+const Case plates{SPHMBS_FALLING_PLATES, {"--spacing", "0.2", "--until", "0.05"}};
 
 }  // namespace
 
