@@ -14,11 +14,11 @@ namespace test {
 /// The texts between back quotes.
 inline std::vector<std::string> quoted(const std::string& cell) {
   std::vector<std::string> all;
-  std::size_t from = cell.find('`');
-  while (from != std::string::npos) {
-    const std::size_t to = cell.find('`', from + 1);
+  constexpr auto none = std::string::npos;
+  for (std::size_t from = cell.find('`'), to = 0; from != none; from = cell.find('`', to + 1)) {
+    to = cell.find('`', from + 1);
+    if (to == none) break;
     all.push_back(cell.substr(from + 1, to - from - 1));
-    from = cell.find('`', to + 1);
   }
   return all;
 }
