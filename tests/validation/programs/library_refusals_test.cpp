@@ -98,7 +98,7 @@ void join_apart() {
   mbs::Dynamics<Bars> dynamics(bars);
 }
 
-const geometry::Domain<2> square(double width, bool periodic) {
+geometry::Domain<2> square(double width, bool periodic) {
   return {.box = {.lower = {0, 0}, .upper = {width, 1}}, .periodic = {periodic, false}};
 }
 
