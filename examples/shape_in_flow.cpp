@@ -58,10 +58,14 @@ double length_of(const std::string& unit) {
 /// The facets of a shape, in metres, from x = 0 on.
 geometry::Facets<dim> read_shape(const Flow& flow) {
   const geometry::Facets<dim> facets = [&] {
-    if constexpr (dim == 2)
-      return io::read_path(flow.file, {.unit = length_of(flow.unit)});
-    else
-      return io::read_stl(flow.file, length_of(flow.unit));
+    try {
+      if constexpr (dim == 2)
+        return io::read_path(flow.file, {.unit = length_of(flow.unit)});
+      else
+        return io::read_stl(flow.file, length_of(flow.unit));
+    } catch (const InvalidInput& error) {
+      throw examples::RefusedValue("shape.file", flow.file, error.what(), error.id);
+    }
   }();
   const double begin = geometry::inspect(facets).box.lower[0];
   return geometry::mapped(facets, [&](Vec<dim> x) {
@@ -78,13 +82,38 @@ Vec<dim> turned(Vec<dim> x, double angle, double axis) {
   return x;
 }
 
+/// @param box    around the turned shape
+/// @param chord  the shape's length before it turns [m]
+void check(const Flow& flow, const geometry::Box<dim>& box, double chord) {
+  examples::require(chord < 100 * flow.width && chord > 0.01 * flow.width, "shape.unit", flow.unit,
+                    "such that the shape, " + examples::length_text(chord) +
+                        " long, fits the width of the stream, " +
+                        examples::length_text(flow.width));
+  for (int k = 1; k < dim; ++k) {
+    const auto half = [&](double x) { return std::abs(x) < flow.width / 2; };
+    examples::require(
+        half(box.lower[k]) && half(box.upper[k]), "stream.width", flow.width,
+        "so large that shapes, " + examples::length_text(chord) + " long, do not touch each other");
+  }
+  examples::require(box.lower[0] > -flow.upstream, "stream.upstream", flow.upstream,
+                    "so large that the turned shape does not reach into the inlet");
+  examples::require(box.upper[0] < chord + flow.downstream, "stream.downstream", flow.downstream,
+                    "so large that the turned shape does not reach into the outlet");
+}
+
 template <class Gas, class T, class Policy>
 void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy policy) {
   const geometry::Facets<dim> read = read_shape(flow);
   const double dx = settings.spacing, chord = geometry::inspect(read).box.upper[0];
+  const geometry::Facets<dim> facets = geometry::mapped(
+      read, [&](const Vec<dim>& x) { return turned(x, flow.angle * math::pi / 180, chord / 2); });
+  const geometry::Inspection<dim> seen = geometry::inspect(facets);
+  check(flow, seen.box, chord);
   examples::require(dx <= chord / 10 && examples::is_whole(flow.width, dx), "--spacing", dx,
                     "a whole fraction of the width, and at most a tenth of the shape's length, " +
                         examples::length_text(chord));
+  examples::require(flow.width >= 8 * dx, "stream.width", flow.width,
+                    "at least eight spacings, " + examples::length_text(8 * dx));
   const double length = flow.upstream + chord + flow.downstream;
   examples::require_memory(length * math::power<dim - 1>(flow.width) / math::power<dim>(dx), dx);
 
@@ -100,8 +129,6 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
   geometry::Domain<dim> domain{.box = ends(inlet - depth, outlet + depth)};
   for (std::size_t k = 1; k < dim; ++k) domain.periodic[k] = true;
   const geometry::Lattice<dim> lattice{.spacing = dx, .origin = Vec<dim>::all(dx / 2)};
-  const geometry::Facets<dim> facets = geometry::mapped(
-      read, [&](const Vec<dim>& x) { return turned(x, flow.angle * math::pi / 180, chord / 2); });
   const geometry::Faceted<dim> shape(facets);
 
   // What: an ideal gas whose speed of sound follows from the Mach number.
@@ -134,13 +161,11 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
   session.note("gas", examples::format_exact(dim) + "D, ideal gas gamma 1.4; " +
                           examples::describe<Gas>() + "; Mach number " +
                           examples::format_exact(flow.mach));
-  const auto seen = geometry::inspect(facets);
   session.note("shape", flow.file + " at " + examples::format_exact(flow.angle) + " degrees, " +
                             std::to_string(seen.facets) + " facets around " +
                             examples::format_number(std::abs(seen.volume)) +
                             (dim == 2 ? " m^2" : " m^3"));
-  for (const auto& advice : geometry::advise(seen, stretch))
-    session.note("warning", std::string(advice.id) + " " + advice.text);
+  for (const auto& advice : geometry::advise(seen, stretch)) session.warn(advice.id, advice.text);
   session.record("drag_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[0]; });
   session.record("lift_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[1]; });
   session.run(time::PredictorCorrector{}, *settings.samples, *settings.fields);

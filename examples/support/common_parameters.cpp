@@ -95,6 +95,18 @@ void Parameters::Parts::add_common() {
          "of generalized-alpha, 1 damps no vibration, 0 the fastest ones at once",
          {"--spectral-radius"}},
         share, "", [&s] { return s.spectral_radius; }, [&s](double x) { s.spectral_radius = x; }));
+    add(number_parameter(
+        {"run.newton_tolerance",
+         "error of a coordinate in a step of the bodies, over their size",
+         {}},
+        {.above = 0.0, .below = 1e-3}, "", [&s] { return s.newton_tolerance; },
+        [&s](double x) { s.newton_tolerance = x; }));
+    add(whole_parameter(
+        {"run.newton_iterations",
+         "iterations after which a step of the bodies is tried in halves",
+         {}},
+        {.at_least = 1.0, .at_most = 1000.0}, "", [&s] { return s.newton_iterations; },
+        [&s](std::int64_t n) { s.newton_iterations = static_cast<int>(n); }));
   }
   add(whole_parameter(
       {"run.fields", "how often fields are written until the end", {}}, count, "",

@@ -6,6 +6,7 @@
 #include <sphmbs/coupling/staggered.hpp>
 #include <sphmbs/coupling/strong.hpp>
 
+#include "support/integrators.hpp"
 #include "support/parameters.hpp"
 
 namespace sphmbs::examples {
@@ -19,7 +20,7 @@ inline void add_coupling(Parameters& parameters, std::string& coupling) {
 /// Calls run(scheme) with the coupling that --coupling names.
 template <class Run>
 void with_coupling(const std::string& coupling, const Settings& settings, Run&& run) {
-  const mbs::GeneralizedAlpha integrator{.spectral_radius = settings.spectral_radius};
+  const mbs::GeneralizedAlpha integrator = step_solver_of(settings);
   if (coupling == "strong")
     run(coupling::Strong<>{.structure = integrator});
   else

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int most_points = 10'000;  // along a line, or the longer side of a plane
 
-using Place = std::array<double, 3>;
+using Point3 = std::array<double, 3>;
 
 std::string text_of(std::span<const double> place) {
   std::string text = "(";
@@ -25,7 +25,13 @@ std::string text_of(std::span<const double> place) {
 }
 
 [[noreturn]] void refuse(const ProbeSpec& spec, const std::string& what, const char* id = "E052") {
-  throw InvalidInput("probe \"" + spec.name + "\": " + what, id);
+  const std::string text = "probe \"" + spec.name + "\": " + what;
+  if (!spec.place.source.empty()) {
+    Complaints complaints;
+    complaints.add(spec.place, id, text);
+    complaints.raise();
+  }
+  throw InvalidInput(text, id);
 }
 
 bool may_name_file(const std::string& name) {
@@ -35,13 +41,13 @@ bool may_name_file(const std::string& name) {
   });
 }
 
-Place checked_place(const ProbeSpec& spec, const std::string& key, const std::vector<double>& given,
-                    const ProbeSpace& space) {
+Point3 checked_place(const ProbeSpec& spec, const std::string& key,
+                     const std::vector<double>& given, const ProbeSpace& space) {
   const auto dim = static_cast<std::size_t>(space.dim);
   if (given.size() != dim)
     refuse(spec, key + " = " + text_of(given) + ": must have " + std::to_string(dim) +
                      (dim > 1 ? " coordinates [m]" : " coordinate [m]"));
-  Place place{};
+  Point3 place{};
   bool inside = true;
   for (std::size_t k = 0; k < dim; ++k) {
     if (!std::isfinite(given[k])) refuse(spec, key + " = " + text_of(given) + ": must be finite");
@@ -81,18 +87,18 @@ void check_words(const ProbeSpec& spec) {
 }
 
 template <int Dim>
-Vec<Dim> vec(const Place& x) {
+Vec<Dim> vec(const Point3& x) {
   Vec<Dim> v;
   for (int k = 0; k < Dim; ++k) v[k] = x[static_cast<std::size_t>(k)];
   return v;
 }
 
 template <int Dim>
-void put_plane(ProbePlaces& places, const Place& lower, const Place& upper, int points) {
+void put_plane(ProbePlaces& places, const Point3& lower, const Point3& upper, int points) {
   const auto plane = geometry::points_across<Dim>({vec<Dim>(lower), vec<Dim>(upper)}, points);
   places.along_row = plane.along_row;
   for (const Vec<Dim>& x : plane.points) {
-    Place place{};
+    Point3 place{};
     for (int k = 0; k < Dim; ++k) place[static_cast<std::size_t>(k)] = x[k];
     places.points.push_back(place);
   }
@@ -112,8 +118,8 @@ ProbePlaces places_of(const ProbeSpec& spec, const ProbeSpace& space) {
     places.points = {checked_place(spec, "at", spec.at, space)};
     return places;
   }
-  const Place from = checked_place(spec, "from", spec.from, space);
-  const Place to = checked_place(spec, "to", spec.to, space);
+  const Point3 from = checked_place(spec, "from", spec.from, space);
+  const Point3 to = checked_place(spec, "to", spec.to, space);
   const std::string ends = "from " + text_of(spec.from) + " to " + text_of(spec.to) + " m";
   if (spec.kind == "line") {
     check_points(spec);
@@ -124,7 +130,7 @@ ProbePlaces places_of(const ProbeSpec& spec, const ProbeSpace& space) {
     if (!(places.arc.back() > 0)) refuse(spec, ends + ": the ends of a line must differ");
     return places;
   }
-  Place lower, upper;
+  Point3 lower, upper;
   int extents = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     lower[k] = std::min(from[k], to[k]);
@@ -204,7 +210,7 @@ void ProbeFile::write(double time, std::span<const double> values) {
 
 void ProbeFile::write_surface(double time, std::span<const double> values) const {
   io::Mesh mesh;
-  for (const Place& x : places_.points) mesh.points.insert(mesh.points.end(), x.begin(), x.end());
+  for (const Point3& x : places_.points) mesh.points.insert(mesh.points.end(), x.begin(), x.end());
   const auto row = static_cast<std::int64_t>(places_.along_row);
   const auto points = static_cast<std::int64_t>(places_.points.size());
   for (std::int64_t corner = 0; corner + row + 1 < points; ++corner)

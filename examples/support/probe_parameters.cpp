@@ -41,6 +41,7 @@ class Reader {
         complaints_(complaints) {}
 
   ProbeSpec read() {
+    spec_.place = place_;
     for (const Given::Member& member : table_) {
       if (contains(keys, member.key)) continue;
       const std::string nearest = nearest_name(member.key, keys);

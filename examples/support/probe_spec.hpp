@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "support/complaints.hpp"
+
 namespace sphmbs::examples {
 
 /// A probe of the gas, as a user describes it.
@@ -23,6 +25,8 @@ struct ProbeSpec {
   std::vector<std::string> fields{"p"};
   /// Time between samples [s]; 0: as history.csv.
   double interval = 0;
+  /// Where it was described, for messages; nowhere by default.
+  Place place{};
 };
 
 }  // namespace sphmbs::examples

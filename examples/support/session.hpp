@@ -61,6 +61,10 @@ class Session {
     notes_.push_back({std::move(key), std::move(value), ""});
   }
 
+  /// Tells the user of something doubtful, also where the run is quiet.
+  /// @param message  with the id that docs/messages.md explains
+  void warn(std::string_view kind, std::string_view message) { report_.warn(kind, message); }
+
   /// Samples the gas at a place: columns speed_<name> and p_<name>.
   void probe(const std::string& name, const Place& place) requires requires(System& gas) {
     gas.sample(place);
@@ -335,9 +339,10 @@ class Session {
                               " s; ";
     if (saved.empty())
       throw OutputError(where + "the checkpoint could not be written, see the warning", "E501");
-    throw Stopped(decision.exit_code, where + "checkpoint " + saved.string() +
-                                          "; go on with --resume --output " +
-                                          settings_.output.string());
+    throw Stopped(decision.exit_code, where + "checkpoint " + saved.string() + "; go on with " +
+                                          file("used.toml").string() + " --resume --output " +
+                                          settings_.output.string() +
+                                          (settings_.steps ? " and more --steps" : ""));
   }
 
   void banner(bool is_new, const std::string& resumed) {
@@ -359,6 +364,12 @@ class Session {
                                format_number(*shown.step, 6) + " s, a whole fraction of the " +
                                format_exact(trace_interval) +
                                " s between rows of trajectories.csv");
+    for (const ProbeSpec& probe : settings_.probes)
+      if (probe.interval > settings_.until)
+        report_.warn("probe " + probe.name,
+                     "W031 its interval of " + format_exact(probe.interval) +
+                         " s is longer than the run, " + format_exact(settings_.until) +
+                         " s: it has a row of the beginning and one of the end");
     display_.heed(shown, report_);
   }
 

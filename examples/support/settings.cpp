@@ -16,8 +16,8 @@ std::string sentence(std::string_view name, std::string_view value, const std::s
 }  // namespace
 
 RefusedValue::RefusedValue(std::string_view parameter, std::string_view given,
-                           const std::string& reason)
-    : InvalidInput(sentence(parameter, given, reason), "E023"),
+                           const std::string& reason, std::string_view id)
+    : InvalidInput(sentence(parameter, given, reason), id),
       name(parameter),
       value(given),
       why(reason) {}

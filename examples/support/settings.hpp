@@ -31,6 +31,10 @@ struct Settings {
   std::optional<double> accuracy{};
   /// Spectral radius of generalized-alpha at infinite frequency, in [0, 1]; of a structure.
   double spectral_radius = 0.8;
+  /// Bound on the error of a coordinate in a step of a structure, over the structure's size [-].
+  double newton_tolerance = 1e-10;
+  /// Iterations of a structure's step after which it is tried again in halves.
+  int newton_iterations = 20;
   /// Number of threads; 0 among the defaults of a program: as many as OpenMP offers.
   int threads = 0;
   /// Name of the execution policy; empty among the defaults: the first of Program::backends.
@@ -98,7 +102,9 @@ struct Program {
 
 /// A value that does not fit the problem. guarded_main() adds where it was given.
 struct RefusedValue : InvalidInput {
-  RefusedValue(std::string_view parameter, std::string_view given, const std::string& reason);
+  /// @param id  the heading in docs/messages.md
+  RefusedValue(std::string_view parameter, std::string_view given, const std::string& reason,
+               std::string_view id = "E023");
 
   std::string name;   // key or option
   std::string value;  // as it was given, or nearly

@@ -14,6 +14,7 @@
 #include <sphmbs/mbs/joints/reaction.hpp>
 
 #include "support/backends.hpp"
+#include "support/integrators.hpp"
 #include "support/session.hpp"
 
 namespace sphmbs::examples {
@@ -151,13 +152,6 @@ class Display<mbs::Dynamics<Structure, Solver, Policy>> {
   double largest_kinetic_ = 0;
   std::vector<Frame> frames_;
 };
-
-/// Generalized-alpha as the settings want it.
-inline mbs::GeneralizedAlpha integrator_of(const Settings& settings) {
-  mbs::GeneralizedAlpha integrator{.spectral_radius = settings.spectral_radius};
-  if (!settings.step) integrator.accuracy = settings.accuracy;
-  return integrator;
-}
 
 /// Coordinates of a point along the axes that are named, in trajectories.csv: columns <name>_x ...
 template <class System, int Dim>

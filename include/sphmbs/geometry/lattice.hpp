@@ -26,7 +26,7 @@ struct Lattice {
   /// @param domain  along periodic axes only one period is filled
   /// @param margin  how far beyond the domain's box the other axes are searched [m]
   /// @throws InvalidInput if the spacing is not positive, does not divide a periodic length, or is
-  ///         too small for 32-bit particle numbers.
+  ///         too small for 32-bit particle numbers, or if the domain's box is empty or not finite.
   template <Shape S>
   std::vector<Vec<Dim>> points(const S& shape, const Domain<Dim>& domain, double margin = 0) const {
     return collect(shape, domain, margin, tolerance * spacing);
@@ -42,6 +42,7 @@ struct Lattice {
   /// @throws InvalidInput as `points` says.
   void check(const Domain<Dim>& domain) const {
     expects(std::isfinite(spacing) && spacing > 0, "spacing", spacing, "positive [m]");
+    domain.check();
     double count = 1;
     for (int k = 0; k < Dim; ++k) count *= domain.box.length(k) / spacing;
     expects(count < 4294967295.0, "spacing", spacing,

@@ -256,6 +256,8 @@ TEST_CASE("probes refuse what they cannot sample", "[probes]") {
   };
   refused({.name = "a", .at = {0.5, 2.5}}, "E050",
           "at = (0.5, 2.5) m: must lie in the domain, from (0, 0) to (2, 2) m");
+  refused({.name = "a", .at = {0.5, 2.5}, .place = {"case.toml", 3, 1}}, "E050",
+          "case.toml:3:1: error E050 probe \"a\": at = (0.5, 2.5) m: must lie in the domain");
   refused({.name = "a", .kind = "line", .from = {0, 0}, .to = {3, 0}}, "E050", "to = (3, 0) m");
   refused({.name = "a", .at = {0.5, 0.5}, .fields = {"p", "vx"}}, "E051",
           "field \"vx\": must be one of");

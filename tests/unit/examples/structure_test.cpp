@@ -16,6 +16,7 @@
 #include "support/catch.hpp"
 #include "support/guarded_main.hpp"
 #include "support/history.hpp"
+#include "support/integrators.hpp"
 #include "support/parameters.hpp"
 #include "support/report.hpp"
 
@@ -94,6 +95,31 @@ TEST_CASE("a program without gas has a step, an accuracy and a spectral radius")
     CHECK_THAT(help.out, Catch::Matchers::Contains(part));
   for (const char* part : {"--spacing", "--cfl"})
     CHECK_THAT(help.out, !Catch::Matchers::Contains(part));
+}
+
+TEST_CASE("the numbers of Newton's method reach the integrator", "[fault]") {
+  const Run plain({});
+  REQUIRE(plain.settings);
+  CHECK(integrator_of(*plain.settings).newton.tolerance == mbs::Newton{}.tolerance);
+  CHECK(integrator_of(*plain.settings).newton.max_iterations == mbs::Newton{}.max_iterations);
+
+  const Run given({"--set", "run.newton_tolerance=1e-8", "--set", "run.newton_iterations=7",
+                   "--spectral-radius", "0.5", "--accuracy", "1e-6"});
+  REQUIRE(given.settings);
+  const mbs::GeneralizedAlpha integrator = integrator_of(*given.settings);
+  CHECK(integrator.newton.tolerance == 1e-8);
+  CHECK(integrator.newton.max_iterations == 7);
+  CHECK(integrator.spectral_radius == 0.5);
+  CHECK(integrator.accuracy == 1e-6);
+  CHECK_FALSE(step_solver_of(*given.settings).accuracy);
+
+  for (const char* bad :
+       {"run.newton_tolerance=0", "run.newton_tolerance=1e-3", "run.newton_tolerance=nan",
+        "run.newton_iterations=0", "run.newton_iterations=1.5", "run.newton_iterations=1001"}) {
+    CAPTURE(bad);
+    const Run refused({"--set", bad});
+    CHECK(refused.code == 2);
+  }
 }
 
 TEST_CASE("a program without gas refuses the options of gas, and bad ones of its own") {

@@ -147,4 +147,7 @@ TEST_CASE("a spacing that is not positive or does not divide a period is refused
   CHECK_THAT(refusal(0, false), Contains("spacing = 0"));
   CHECK_THAT(refusal(-0.1, false), Contains("spacing = -0.1"));
   CHECK_THAT(refusal(std::numeric_limits<double>::quiet_NaN(), false), Contains("spacing = nan"));
+  const auto inside_out = test::cube<2>(-1, false);
+  CHECK_THAT(test::refusal([&] { Lattice<2>{0.1}.points(inside_out.box, inside_out); }),
+             Contains("domain length = -1"));
 }

@@ -99,7 +99,7 @@ TEST_CASE("asked to end, a run saves its state within a step and says how to go 
     const auto asked = std::chrono::steady_clock::now();
     CHECK(process.wait() == 128 + signal);
     CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(5));
-    CHECK_THAT(runs.log(), Catch::Contains("go on with --resume"));
+    CHECK_THAT(runs.log(), Catch::Contains("used.toml --resume --output "));
     CHECK(fs::exists(runs.folder() / "summary.json"));
     runs.finish();
   }
