@@ -96,6 +96,8 @@ void without_air(examples::Settings settings, const Options& options) {
   examples::Session session(settings, "falling_plates", "two hinged plates", system);
   plates.record(session, options.elements);
   session.note("air", "none (--no-air)");
+  examples::record_body_loads(session, "I", plates.I.elements);
+  examples::record_body_loads(session, "II", plates.II.elements);
   const bool known = options.data == Case{};
   examples::note_reference(session, known);
   session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
@@ -178,10 +180,9 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   session.note("air", "3D, ideal gas gamma " + examples::format_exact(data.air.gamma) + "; " +
                           examples::describe<Gas>() + "; coupling " + options.coupling);
   for (const auto& [name, plate, sets] :
-       {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)}) {
-    examples::record_gas_load(session, name, sets, plate.point(side / 2, side / 2));
-    examples::record_total_force(session, name, plate.elements);
-  }
+       {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)})
+    examples::record_body_loads(session, name, plate.elements, sets,
+                                plate.point(side / 2, side / 2));
   examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
     session.run(scheme, *settings.samples, settings.fields.value_or(20));
   });

@@ -101,6 +101,8 @@ void without_air(examples::Settings settings, const Options& options) {
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable", system);
   pendulum.record(session, options);
   session.note("air", "none (--no-air)");
+  examples::record_body_loads(session, "AB", std::vector{pendulum.AB});
+  examples::record_body_loads(session, "BC", std::vector{pendulum.BC});
   const bool known = options.data == Case{};
   examples::note_reference(session, known);
   session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
@@ -194,8 +196,7 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   for (const auto& [name, bar, sets] :
        {std::tuple("AB", pendulum.AB, sets_AB), std::tuple("BC", pendulum.BC, sets_BC)}) {
     const auto middle = bar.point((bar.part.start() + bar.part.end()) / 2);
-    examples::record_gas_load(session, name, sets, middle);
-    examples::record_total_force(session, name, std::vector{bar});
+    examples::record_body_loads(session, name, std::vector{bar}, sets, middle);
   }
   examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
     session.run(scheme, *settings.samples, settings.fields.value_or(20));

@@ -148,8 +148,7 @@ void flexible_panel(const examples::Settings& settings, const Choice& choice, co
   session.note("panel", std::to_string(choice.elements) + " ANCF cable elements, clamped; set-up " +
                             choice.setup + "; coupling " + choice.coupling);
   record(session, fluid, channel.panel, setup.height);
-  examples::record_gas_load(session, "panel", channel.panel, line.start());
-  examples::record_total_force(session, "panel", line.elements);
+  examples::record_body_loads(session, "panel", line.elements, channel.panel, line.start());
   examples::record_reaction<mbs::joints::Joint<2>>(session, foot, "force_foot");
   for (const auto& [name, point] :
        {std::pair("tip", line.end()), std::pair("middle", line.point(setup.length / 2))})

@@ -10,6 +10,7 @@
 #include <malloc.h>
 
 #include "sphmbs/core/error.hpp"
+#include "support/interruption.hpp"
 #include "support/run_control.hpp"
 #include "support/text.hpp"
 
@@ -62,6 +63,7 @@ int guarded_main(int argc, const char* const* argv, Parameters& parameters,
   // memory of fields that were written out.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
+  end_at_signals();
   return guarded_main(argc, argv, parameters, run, std::cout, std::cerr);
 }
 

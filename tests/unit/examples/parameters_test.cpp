@@ -446,6 +446,26 @@ TEST_CASE("a run writes what it used and keeps others out of its directory") {
   CHECK(fs::exists(out / "used.toml"));
 }
 
+TEST_CASE("what is in a file that a parameter names belongs to a run") {
+  const Run scratch;
+  const fs::path path = scratch.scratch / "shape.txt";
+  const auto content = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    Run run;
+    std::string file = path.string();
+    run.line.add_path("shape.file", file, "of a shape");
+    std::string found;
+    run.with({"--output", (scratch.scratch / "out").string()},
+             [&](const Settings& settings) { found = settings.contents.at("shape.file"); });
+    return found;
+  };
+  const std::string first = content("0 0\n1 0\n");
+  CHECK_THAT(first, Catch::Matchers::Contains("8 bytes"));
+  CHECK(content("0 0\n1 0\n") == first);
+  CHECK(content("0 0\n1 1\n") != first);
+  CHECK(content(std::string(200000, ' ')) != content(std::string(200000, '\n')));
+}
+
 TEST_CASE("what a run leaves that was killed is taken over") {
   Run run;
   const fs::path out = run.scratch / "out";
