@@ -110,20 +110,21 @@ template <class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   const Case& data = options.data;
-  data.check();
   const double side = data.side, x = data.corner[0], y = data.corner[1], z = data.corner[2];
   // Plates lie on the lattice, and their sides run midway between its points.
   bool fits =
       dx <= side / 10 + 1e-9 && !examples::is_whole(y, dx) && !examples::is_whole(y + side, dx);
   for (const double length : {data.channel[0], data.channel[1], data.channel[2], side, x, z})
     fits = fits && examples::is_whole(length, dx);
-  examples::require(
+  auto required = data.requirements();
+  required.emplace_back(
       fits, "--spacing", dx,
       data == Case{}
           ? "1 m by an odd number, at least 5: 0.2, 0.111111 or 0.0666667 are the paper's"
           : "at most a tenth of a plate's side, and a whole fraction of it, of the channel's sides "
             "and "
             "of x and z of the corner, but not of its y");
+  examples::require_all(required);
   examples::require_memory(data.channel[0] * data.channel[1] * data.channel[2] / (dx * dx * dx),
                            dx);
   Plates plates(options.data, options.elements);

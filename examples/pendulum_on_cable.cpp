@@ -115,13 +115,14 @@ template <class Measure, class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   const Case& data = options.data;
-  data.check();
+  auto required = data.requirements();
   for (const double length : {data.room[0], data.room[1], data.P[0], data.P[1], data.AB, data.BC})
-    examples::require(dx <= 0.1 * std::min(data.AB, data.BC) && examples::is_whole(length, dx),
-                      "--spacing", dx,
-                      data == Case{} ? "a whole fraction of 0.5 m, and at most 0.1 m"
-                                     : "a whole fraction of the room's sides, the coordinates of P "
-                                       "and the bars' lengths, and at most a tenth of these");
+    required.emplace_back(
+        dx <= 0.1 * std::min(data.AB, data.BC) && examples::is_whole(length, dx), "--spacing", dx,
+        data == Case{} ? "a whole fraction of 0.5 m, and at most 0.1 m"
+                       : "a whole fraction of the room's sides, the coordinates of P "
+                         "and the bars' lengths, and at most a tenth of these");
+  examples::require_all(required);
   examples::require_memory(data.room[0] * data.room[1] / (dx * dx), dx);
   Pendulum<Measure> pendulum(options.data, options.elements);
   const VectorXd q = pendulum.mechanism.q();

@@ -37,7 +37,9 @@ int guarded_main(int argc, const char* const* argv, Parameters& parameters,
   } catch (const BadParameters& error) {
     return end_with(ExitCode::bad_input, error.what());
   } catch (const RefusedValue& error) {
-    return end_with(ExitCode::bad_input, parameters.located(error).what());
+    return end_with(ExitCode::bad_input, parameters.located({error}).what());
+  } catch (const RefusedValues& error) {
+    return end_with(ExitCode::bad_input, parameters.located(error.all).what());
   } catch (const InvalidInput& error) {
     return end_with(ExitCode::bad_input, line(error.id, one_line(error.what())));
   } catch (const NumericalFailure& error) {

@@ -155,18 +155,20 @@ std::string Parameters::memory_advice() const {
                              : "fewer elements need less of it";
 }
 
-BadParameters Parameters::located(const RefusedValue& refused) const {
-  const Parameter* const p = parts_->find(refused.name);
-  std::string name = refused.name;
-  Place place{"default"};
-  if (p && p->origin) {
-    place = p->origin->place;
-    name = p->origin->name;
-  } else if (p && !p->key.empty()) {
-    name = p->key;
-  }
+BadParameters Parameters::located(const std::vector<RefusedValue>& all) const {
   Complaints complaints;
-  complaints.add(place, refused.id, named(name, refused.value) + refused.why);
+  for (const RefusedValue& refused : all) {
+    const Parameter* const p = parts_->find(refused.name);
+    std::string name = refused.name;
+    Place place{"default"};
+    if (p && p->origin) {
+      place = p->origin->place;
+      name = p->origin->name;
+    } else if (p && !p->key.empty()) {
+      name = p->key;
+    }
+    complaints.add(place, refused.id, named(name, refused.value) + refused.why);
+  }
   try {
     complaints.raise();
   } catch (const BadParameters& error) {

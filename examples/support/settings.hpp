@@ -127,6 +127,26 @@ void require(bool condition, std::string_view name, double value, std::string_vi
 void require(bool condition, std::string_view name, std::string_view value,
              std::string_view allowed);
 
+/// A condition between parameters, or of one and the problem; see require().
+struct Requirement {
+  Requirement(bool condition, std::string_view name, double value, std::string_view allowed);
+  Requirement(bool condition, std::string_view name, std::string_view value,
+              std::string_view allowed);
+
+  bool holds;
+  RefusedValue refused;  // where it does not hold
+};
+
+/// All values that do not fit the problem.
+struct RefusedValues : InvalidInput {
+  explicit RefusedValues(std::vector<RefusedValue> some);
+  std::vector<RefusedValue> all;
+};
+
+/// Checks several together, so that all complaints come at once. Throws RefusedValues unless all
+/// hold.
+void require_all(const std::vector<Requirement>& requirements);
+
 /// Checks that about `particles` of them fit into the memory of this computer. Throws RefusedValue
 /// naming --spacing, its value and how many would fit.
 void require_memory(double particles, double spacing);

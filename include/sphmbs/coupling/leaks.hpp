@@ -50,7 +50,9 @@ class Leaks {
       const auto before = last_.find(id);
       if (before == last_.end()) continue;
       const Place& b = before->second;
-      if ((place.inside && !b.inside) || dot(place.side, b.side) < 0) crossed_.push_back(id);
+      // Beside a hinge the nearest body may be another one, whose normal is another too.
+      const bool through = dot(place.side, b.side) < -0.7;
+      if ((place.inside && !b.inside) || through) crossed_.push_back(id);
     }
     last_ = std::move(now);
     if (crossed_.size() > most_)
