@@ -96,6 +96,8 @@ void without_air(examples::Settings settings, const Options& options) {
   examples::Session session(settings, "falling_plates", "two hinged plates", system);
   plates.record(session, options.elements);
   session.note("air", "none (--no-air)");
+  examples::record_body_loads(session, "I", plates.I.elements);
+  examples::record_body_loads(session, "II", plates.II.elements);
   const bool known = options.data == Case{};
   examples::note_reference(session, known);
   session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
@@ -108,20 +110,21 @@ template <class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   const Case& data = options.data;
-  data.check();
   const double side = data.side, x = data.corner[0], y = data.corner[1], z = data.corner[2];
   // Plates lie on the lattice, and their sides run midway between its points.
   bool fits =
       dx <= side / 10 + 1e-9 && !examples::is_whole(y, dx) && !examples::is_whole(y + side, dx);
   for (const double length : {data.channel[0], data.channel[1], data.channel[2], side, x, z})
     fits = fits && examples::is_whole(length, dx);
-  examples::require(
+  auto required = data.requirements();
+  required.emplace_back(
       fits, "--spacing", dx,
       data == Case{}
           ? "1 m by an odd number, at least 5: 0.2, 0.111111 or 0.0666667 are the paper's"
           : "at most a tenth of a plate's side, and a whole fraction of it, of the channel's sides "
             "and "
             "of x and z of the corner, but not of its y");
+  examples::require_all(required);
   examples::require_memory(data.channel[0] * data.channel[1] * data.channel[2] / (dx * dx * dx),
                            dx);
   Plates plates(options.data, options.elements);
@@ -178,10 +181,9 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   session.note("air", "3D, ideal gas gamma " + examples::format_exact(data.air.gamma) + "; " +
                           examples::describe<Gas>() + "; coupling " + options.coupling);
   for (const auto& [name, plate, sets] :
-       {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)}) {
-    examples::record_gas_load(session, name, sets, plate.point(side / 2, side / 2));
-    examples::record_total_force(session, name, plate.elements);
-  }
+       {std::tuple("I", plates.I, sets_I), std::tuple("II", plates.II, sets_II)})
+    examples::record_body_loads(session, name, plate.elements, sets,
+                                plate.point(side / 2, side / 2));
   examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
     session.run(scheme, *settings.samples, settings.fields.value_or(20));
   });

@@ -8,6 +8,7 @@
 
 #include "reference/flexible_pendulum_curves.hpp"
 #include "support/backends.hpp"
+#include "support/body_loads.hpp"
 #include "support/guarded_main.hpp"
 #include "support/reference_case.hpp"
 #include "support/structure_session.hpp"
@@ -60,6 +61,7 @@ void flexible_pendulum(const examples::Settings& settings, const Rod& rod, int e
   examples::trace_point(session, "tip", cable.end(), "xy");
   examples::trace_point(session, "middle", cable.point(cable.length / 2), "xy");
   examples::record_reaction<joints::Joint<2>>(session, hinge, "force");
+  examples::record_body_loads(session, "pendulum", cable.elements);
   session.run(examples::integrator_of(settings), *settings.samples, *settings.fields);
   examples::compare_if(known, session,
                        [&] { examples::compare_with_reference(session, elements); });

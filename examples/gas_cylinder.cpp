@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Airflow around a circular cylinder in a pipe (paper, sect. 5.1). At --spacing 0.1, the paper's
 // resolution, there are 469 567 gas and 14 296 virtual particles.
+#include <vector>
+
 #include <sphmbs/sphmbs.hpp>
 
 #include "reference/gas_cylinder_curves.hpp"
@@ -27,14 +29,15 @@ struct Flow {
     parameters.add_vector("gas.acceleration", acceleration, {}, "m/s^2", "by a uniform body force");
     examples::add_still_gas(parameters, gas);
   }
-  void check() const {
+  std::vector<examples::Requirement> requirements() const {
+    std::vector<examples::Requirement> all;
     const std::string place =
         "[" + examples::format_exact(centre[0]) + ", " + examples::format_exact(centre[1]) + "]";
     for (int k = 0; k < 2; ++k)
-      examples::require(radius < centre[k] && centre[k] + radius < pipe[k], "cylinder.centre",
-                        place,
-                        "so far inside the pipe that the cylinder, of radius " +
-                            examples::length_text(radius) + ", touches no end or wall");
+      all.emplace_back(radius < centre[k] && centre[k] + radius < pipe[k], "cylinder.centre", place,
+                       "so far inside the pipe that the cylinder, of radius " +
+                           examples::length_text(radius) + ", touches no end or wall");
+    return all;
   }
   bool operator==(const Flow&) const = default;
 };
@@ -42,10 +45,11 @@ struct Flow {
 template <class Gas, class T, class Policy>
 void gas_cylinder(const examples::Settings& settings, const Flow& flow, Policy policy) {
   const double dx = settings.spacing, length = flow.pipe[0], height = flow.pipe[1];
-  flow.check();
-  examples::require(dx <= flow.radius / 5 && examples::is_whole(length, dx), "--spacing", dx,
-                    "a whole fraction of the pipe's length, " + examples::length_text(length) +
-                        ", and at most " + examples::length_text(flow.radius / 5));
+  auto required = flow.requirements();
+  required.emplace_back(dx <= flow.radius / 5 && examples::is_whole(length, dx), "--spacing", dx,
+                        "a whole fraction of the pipe's length, " + examples::length_text(length) +
+                            ", and at most " + examples::length_text(flow.radius / 5));
+  examples::require_all(required);
   examples::require_memory(length * height / (dx * dx), dx);
 
   // Where: a pipe, periodic along x, with a cylinder across it.

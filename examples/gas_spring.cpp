@@ -35,12 +35,12 @@ void gas_spring(const examples::Settings& settings, const Swing& swing, const st
   const double dx = settings.spacing;
   const double length = swing.length, gamma = swing.gas.gamma;
   const int count = static_cast<int>(std::lround(length / dx));
-  examples::require(dx <= length / 10 && std::abs(count * dx - length) < 1e-6 * length, "--spacing",
-                    dx,
-                    "a whole fraction of " + examples::length_text(length) + ", and at most " +
-                        examples::length_text(length / 10));
-  examples::require(swing.way <= length / 2, "piston.way", swing.way,
-                    "at most half the length of a column, " + examples::length_text(length));
+  examples::require_all(
+      {{dx <= length / 10 && std::abs(count * dx - length) < 1e-6 * length, "--spacing", dx,
+        "a whole fraction of " + examples::length_text(length) + ", and at most " +
+            examples::length_text(length / 10)},
+       {swing.way <= length / 2, "piston.way", swing.way,
+        "at most half the length of a column, " + examples::length_text(length)}});
 
   // Where: the piston is as thick as gas sees on both sides, the columns lie beside it.
   const double half = 5 * dx, end = length + half;

@@ -40,12 +40,12 @@ template <class Gas, class T, class Policy>
 void lagrange_gun(const examples::Settings& settings, const Gun& data, const std::string& coupling,
                   Policy policy) {
   const double dx = settings.spacing, length = data.length;
-  examples::require(dx <= length / 30 && examples::is_whole(length, dx), "--spacing", dx,
-                    "a whole fraction of " + examples::length_text(length) + ", and at most " +
-                        examples::length_text(length / 30));
-  examples::require(settings.until <= data.latest(), "--until", settings.until,
-                    "at most " + examples::format_exact(data.latest()) +
-                        " s, when the expansion comes back from the far end");
+  examples::require_all({{dx <= length / 30 && examples::is_whole(length, dx), "--spacing", dx,
+                          "a whole fraction of " + examples::length_text(length) +
+                              ", and at most " + examples::length_text(length / 30)},
+                         {settings.until <= data.latest(), "--until", settings.until,
+                          "at most " + examples::format_exact(data.latest()) +
+                              " s, when the expansion comes back from the far end"}});
   examples::require_memory(length / dx * (dim > 1 ? 10 : 1), dx);
 
   // Where: a tube along x, periodic across, closed at -3 m. The piston begins at 0.

@@ -101,6 +101,8 @@ void without_air(examples::Settings settings, const Options& options) {
   examples::Session session(settings, "pendulum_on_cable", "double pendulum on a cable", system);
   pendulum.record(session, options);
   session.note("air", "none (--no-air)");
+  examples::record_body_loads(session, "AB", std::vector{pendulum.AB});
+  examples::record_body_loads(session, "BC", std::vector{pendulum.BC});
   const bool known = options.data == Case{};
   examples::note_reference(session, known);
   session.run(examples::integrator_of(settings), *settings.samples, settings.fields.value_or(50));
@@ -113,13 +115,14 @@ template <class Measure, class Gas, class T, class Policy>
 void in_air(const examples::Settings& settings, const Options& options, Policy policy) {
   const double dx = settings.spacing;
   const Case& data = options.data;
-  data.check();
+  auto required = data.requirements();
   for (const double length : {data.room[0], data.room[1], data.P[0], data.P[1], data.AB, data.BC})
-    examples::require(dx <= 0.1 * std::min(data.AB, data.BC) && examples::is_whole(length, dx),
-                      "--spacing", dx,
-                      data == Case{} ? "a whole fraction of 0.5 m, and at most 0.1 m"
-                                     : "a whole fraction of the room's sides, the coordinates of P "
-                                       "and the bars' lengths, and at most a tenth of these");
+    required.emplace_back(
+        dx <= 0.1 * std::min(data.AB, data.BC) && examples::is_whole(length, dx), "--spacing", dx,
+        data == Case{} ? "a whole fraction of 0.5 m, and at most 0.1 m"
+                       : "a whole fraction of the room's sides, the coordinates of P "
+                         "and the bars' lengths, and at most a tenth of these");
+  examples::require_all(required);
   examples::require_memory(data.room[0] * data.room[1] / (dx * dx), dx);
   Pendulum<Measure> pendulum(options.data, options.elements);
   const VectorXd q = pendulum.mechanism.q();
@@ -194,8 +197,7 @@ void in_air(const examples::Settings& settings, const Options& options, Policy p
   for (const auto& [name, bar, sets] :
        {std::tuple("AB", pendulum.AB, sets_AB), std::tuple("BC", pendulum.BC, sets_BC)}) {
     const auto middle = bar.point((bar.part.start() + bar.part.end()) / 2);
-    examples::record_gas_load(session, name, sets, middle);
-    examples::record_total_force(session, name, std::vector{bar});
+    examples::record_body_loads(session, name, std::vector{bar}, sets, middle);
   }
   examples::with_coupling(options.coupling, settings, [&](const auto& scheme) {
     session.run(scheme, *settings.samples, settings.fields.value_or(20));

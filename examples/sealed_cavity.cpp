@@ -31,14 +31,14 @@ template <class Gas, class T, class Policy>
 void sealed_cavity(const examples::Settings& settings, const Compression& compression,
                    Policy policy) {
   const double dx = settings.spacing, side = compression.side;
-  examples::require(examples::is_whole(side, dx) && dx <= side / 10, "--spacing", dx,
-                    "a whole fraction of the side, " + examples::length_text(side) +
-                        ", of at least ten particles");
-  examples::require_memory(side * side / (dx * dx), dx);
   const double meeting = compression.meeting();
-  examples::require(settings.until <= 0.9 * meeting, "--until", settings.until,
-                    "at most " + examples::format_exact(0.9 * meeting) + " s: the walls meet at " +
-                        examples::format_exact(meeting) + " s");
+  examples::require_all({{examples::is_whole(side, dx) && dx <= side / 10, "--spacing", dx,
+                          "a whole fraction of the side, " + examples::length_text(side) +
+                              ", of at least ten particles"},
+                         {settings.until <= 0.9 * meeting, "--until", settings.until,
+                          "at most " + examples::format_exact(0.9 * meeting) +
+                              " s: the walls meet at " + examples::format_exact(meeting) + " s"}});
+  examples::require_memory(side * side / (dx * dx), dx);
 
   // Where: a square around the origin; particles lie half a spacing off the walls, which are five
   // layers of virtual particles that contract with the cavity.

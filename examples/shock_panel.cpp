@@ -148,8 +148,7 @@ void flexible_panel(const examples::Settings& settings, const Choice& choice, co
   session.note("panel", std::to_string(choice.elements) + " ANCF cable elements, clamped; set-up " +
                             choice.setup + "; coupling " + choice.coupling);
   record(session, fluid, channel.panel, setup.height);
-  examples::record_gas_load(session, "panel", channel.panel, line.start());
-  examples::record_total_force(session, "panel", line.elements);
+  examples::record_body_loads(session, "panel", line.elements, channel.panel, line.start());
   examples::record_reaction<mbs::joints::Joint<2>>(session, foot, "force_foot");
   for (const auto& [name, point] :
        {std::pair("tip", line.end()), std::pair("middle", line.point(setup.length / 2))})
@@ -191,11 +190,13 @@ int main(int argc, char** argv) {
                       "reference where channel, shock, gas or panel are changed by parameters");
     const Setup setup =
         choice.setup == "reference" ? choice.own : examples::setup_named(choice.setup);
-    setup.check();
+    auto required = setup.requirements();
     for (const double length : {setup.length, setup.height})
-      examples::require(dx <= setup.length / 10 && examples::is_whole(length, dx), "--spacing", dx,
-                        "a whole fraction of " + examples::format_exact(1e3 * setup.length) +
-                            " mm, the panel's length, and of the channel's height");
+      required.emplace_back(dx <= setup.length / 10 && examples::is_whole(length, dx), "--spacing",
+                            dx,
+                            "a whole fraction of " + examples::format_exact(1e3 * setup.length) +
+                                " mm, the panel's length, and of the channel's height");
+    examples::require_all(required);
     examples::require_memory((setup.end - setup.opening) * setup.height / (dx * dx), dx);
     examples::with_backend(settings, [&]<class T>(const auto& s, auto policy) {
       examples::with_scheme<sph::PaperScheme<2>, sph::ShockScheme<2>>(scheme, [&]<class Gas>() {

@@ -59,15 +59,15 @@ struct Choices {
 template <class Gas, class T, class Policy>
 void shock_tube(const examples::Settings& settings, const Choices& choices, Policy policy) {
   const double dx = settings.spacing;
-  examples::require(dx <= 0.025, "--spacing", dx, "at most 0.025 m, a fortieth of the tube");
+  const double denser = choices.states.right.rho / choices.states.left.rho;
+  examples::require_all({{dx <= 0.025, "--spacing", dx, "at most 0.025 m, a fortieth of the tube"},
+                         {denser >= 1e-3 && denser <= 10, "right.density", choices.states.right.rho,
+                          "a thousandth to ten times that of the left, " +
+                              examples::format_exact(choices.states.left.rho) + " kg/m^3"}});
   examples::require_memory(std::pow(24, dim - 1) / dx, dx);
 
   // Particles of (nearly) equal mass on both sides, so that the right ones are wider apart; the
   // tube is as wide as its periodic sides ask for, and ends in fixed walls of virtual particles.
-  const double denser = choices.states.right.rho / choices.states.left.rho;
-  examples::require(denser >= 1e-3 && denser <= 10, "right.density", choices.states.right.rho,
-                    "a thousandth to ten times that of the left, " +
-                        examples::format_exact(choices.states.left.rho) + " kg/m^3");
   const examples::SodTube<dim> tube(dx, choices.states);
   particles::Cloud<dim> cloud;
   tube.fill(cloud);

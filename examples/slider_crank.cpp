@@ -11,6 +11,7 @@
 
 #include "reference/slider_crank_curves.hpp"
 #include "support/backends.hpp"
+#include "support/body_loads.hpp"
 #include "support/guarded_main.hpp"
 #include "support/structure_session.hpp"
 
@@ -93,6 +94,9 @@ void slider_crank(const examples::Settings& settings, const Case& data, Policy) 
                              text(exact.torque) + " N m");
   examples::trace_slider_crank(session, model.crank, model.slider);
   examples::record_reaction<joints::Joint<2>>(session, model.pin_O, "pin_O");
+  examples::record_body_loads(session, "crank", std::vector{model.crank});
+  examples::record_body_loads(session, "rod", std::vector{model.rod});
+  examples::record_body_loads(session, "slider", std::vector{model.slider});
   session.run(examples::integrator_of(settings), *settings.samples, *settings.fields);
   examples::compare_with_reference(session, model.exact);
   if (data.halvings > 0)

@@ -7,6 +7,7 @@
 
 #include "reference/spinning_top_curves.hpp"
 #include "support/backends.hpp"
+#include "support/body_loads.hpp"
 #include "support/guarded_main.hpp"
 #include "support/structure_session.hpp"
 
@@ -56,6 +57,7 @@ void spinning_top(const examples::Settings& settings, const Top& data, Policy) {
   examples::trace_point(session, "centre", top.point(centre), "xyz");
   examples::trace_top(session, top);
   examples::record_reaction<joints::Joint<3>>(session, joint, "force");
+  examples::record_body_loads(session, "top", std::vector{top});
   session.run(examples::integrator_of(settings), *settings.samples, *settings.fields);
   examples::compare_with_reference(session, data == Top{});
   session.finish();

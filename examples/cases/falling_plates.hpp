@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include <sphmbs/core/vec.hpp>
 
 #include "support/gas_parameters.hpp"
@@ -34,11 +36,13 @@ struct PlatesCase {
     parameters.add_vector("channel.size", channel, {.above = 0.0}, "m", "of the channel of air");
     add_still_gas(parameters, air);
   }
-  void check() const {
+  std::vector<Requirement> requirements() const {
+    std::vector<Requirement> all;
     const Vec<3> far = corner + Vec<3>{2 * side, side, 0};
     for (int k = 0; k < 3; ++k)
-      require(corner[k] > 0 && far[k] < channel[k], "channel.size", channel[k],
-              "so large that the plates lie inside the channel");
+      all.emplace_back(corner[k] > 0 && far[k] < channel[k], "channel.size", channel[k],
+                       "so large that the plates lie inside the channel");
+    return all;
   }
   bool operator==(const PlatesCase&) const = default;
 };

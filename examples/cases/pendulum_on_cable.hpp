@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include <sphmbs/core/vec.hpp>
 
 #include "support/gas_parameters.hpp"
@@ -38,12 +40,14 @@ struct PendulumCase {
     parameters.add_vector("room.size", room, {.above = 0.0}, "m", "length and height of the room");
     add_still_gas(parameters, air);
   }
-  void check() const {
+  std::vector<Requirement> requirements() const {
+    std::vector<Requirement> all;
     const Vec<2> sizes[] = {O, P, P - Vec<2>{AB, BC}};
     for (const Vec<2>& r : sizes)
       for (int k = 0; k < 2; ++k)
-        require(r[k] > 0 && r[k] < room[k], "room.size", room[k],
-                "so large that cable and bars lie inside the room");
+        all.emplace_back(r[k] > 0 && r[k] < room[k], "room.size", room[k],
+                         "so large that cable and bars lie inside the room");
+    return all;
   }
   bool operator==(const PendulumCase&) const = default;
 };

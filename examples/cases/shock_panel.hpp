@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "support/gas_parameters.hpp"
 
@@ -46,10 +47,10 @@ struct PanelSetup {
     parameters.add_number("panel.poisson_ratio", poisson_ratio, {.above = -1.0, .below = 0.5}, "",
                           "of the panel, which is wide; 0 makes it a beam");
   }
-  void check() const {
-    require(opening < shock, "shock.place", shock, "behind the opening of the channel");
-    require(length < height, "panel.length", length,
-            "below the height of the channel, " + length_text(height));
+  std::vector<Requirement> requirements() const {
+    return {{opening < shock, "shock.place", shock, "behind the opening of the channel"},
+            {length < height, "panel.length", length,
+             "below the height of the channel, " + length_text(height)}};
   }
   bool operator==(const PanelSetup&) const = default;
 };

@@ -14,7 +14,6 @@
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/forces/contact.hpp>
 
-#include "support/coupled_session.hpp"
 #include "support/session.hpp"
 
 namespace sphmbs::examples {
@@ -170,18 +169,6 @@ void record_body_loads(Session<System>& session, const std::string& name,
   if (contacts) columns("contact_force_" + name, [](Scale& s) { return s.now().contacts; });
   if (others) columns("other_force_" + name, [](Scale& s) { return s.now().others; });
   columns("total_force_" + name, [](Scale& s) { return s.now().total; });
-}
-
-/// The same of a body in gas, and before it the gas's force gas_force_<name>_x ... and moment
-/// gas_moment_<name>.
-/// @param sets   of virtual particles that ride on it
-/// @param about  the point of the moment
-template <class System, class Part>
-void record_body_loads(Session<System>& session, const std::string& name,
-                       const std::vector<mbs::Placed<Part>>& parts, const std::vector<int>& sets,
-                       const mbs::Marker<Part::dim>& about) {
-  record_gas_load(session, name, sets, about);
-  record_body_loads(session, name, parts);
 }
 
 }  // namespace sphmbs::examples

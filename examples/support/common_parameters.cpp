@@ -138,6 +138,23 @@ void Parameters::Parts::add_common() {
   add(duration_parameter(
       {"run.checkpoint_every", "time on the clock between checkpoints", {"--checkpoint-every"}},
       positive, [&s] { return s.checkpoint_every; }, [&s](double x) { s.checkpoint_every = x; }));
+  if (program.gas) {
+    Guards& g = s.guards;
+    add(choice_parameter(
+        {"guards.balance", "what is done where mass, momentum or energy of the gas get lost", {}},
+        g.balance, {"stop", "warn", "off"}, "one of stop, warn, off"));
+    add(number_parameter(
+        {"guards.energy", "share of the gas's energy that may get lost before the run stops", {}},
+        positive, "", [&g] { return g.energy; }, [&g](double x) { g.energy = x; }));
+    if (program.structure) {
+      add(whole_parameter(
+          {"guards.leaks",
+           "gas particles that may go through thin bodies before the run stops",
+           {}},
+          {.at_least = 0.0}, "", [&g] { return g.leaks; }, [&g](std::int64_t n) { g.leaks = n; }));
+      if (!g.leaks) all.back().default_text = "any number";
+    }
+  }
   add(flag_parameter(
       {"run.plots", "whether pictures are drawn; --no-plots draws none", {"--no-plots"}}, s.plots,
       false));

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <sphmbs/coupling/immersed.hpp>
+#include <sphmbs/coupling/leaks.hpp>
 
+#include "support/body_loads.hpp"
 #include "support/couplings.hpp"
 #include "support/gas_session.hpp"
 #include "support/structure_session.hpp"
@@ -45,7 +49,25 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
     row.push_back(passed.work_on_bodies);
   }
 
-  void prepare() { system_.evaluate(); }
+  void prepare() {
+    system_.evaluate();
+    if (has_sheets()) leaks_.emplace(system_, most_leaks_);
+  }
+
+  void guard(const Guards& guards) {
+    gas_.guard(guards);
+    if (guards.leaks) most_leaks_ = static_cast<std::size_t>(*guards.leaks);
+  }
+  void watch(Report& report) {
+    gas_.watch(report);
+    if (!leaks_) return;
+    leaks_->look();
+    const auto& crossed = leaks_->crossed();
+    for (; told_leaks_ < crossed.size(); ++told_leaks_)
+      report.warn("gas through a thin body",
+                  "W321 gas particle #" + std::to_string(crossed[told_leaks_]) +
+                      " at t = " + format_number(system_.time(), 4) + " s");
+  }
 
   std::vector<BannerLine> banner(const Settings& settings) {
     std::vector<BannerLine> lines = gas_.banner(settings);
@@ -81,6 +103,7 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   void summarise(Summary& s) {
     bodies_.summarise(s);
     gas_.summarise(s);
+    if (leaks_) s.incidents.leaked = static_cast<std::int64_t>(leaks_->crossed().size());
     s.results.push_back({"gas_in_bodies", static_cast<double>(nearest_.inside), 0, "particles"});
     s.results.push_back({"nearest_gas", nearest_.distance, std::nullopt, "spacings"});
   }
@@ -88,7 +111,9 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   template <Archive A>
   void visit_state(A& archive) {
     archive("noticed", noticed_);
+    archive("gas", gas_);
     archive("bodies", bodies_);
+    if (leaks_) archive("leaks", *leaks_);
     archive("nearest_distance", nearest_.distance);
     archive("nearest_inside", nearest_.inside);
   }
@@ -96,7 +121,18 @@ class Display<coupling::Immersed<Fluid, Bodies, Surface>> {
   const std::vector<Frame>& frames() const { return bodies_.frames(); }
 
  private:
+  bool has_sheets() {
+    const auto* sheet = system_.fluid().particles().fields().sheet;
+    if (sheet == nullptr) return false;
+    const auto all = download<typename Fluid::PolicyType>(sheet, system_.fluid().size());
+    return std::any_of(all.begin(), all.end(),
+                       [](auto what) { return what != particles::no_sheet; });
+  }
+
   System& system_;
+  std::optional<coupling::Leaks<System>> leaks_;  // through thin bodies
+  std::size_t most_leaks_ = std::numeric_limits<std::size_t>::max();
+  std::size_t told_leaks_ = 0;
   std::size_t noticed_ = 0;  // incidents
   Display<Fluid> gas_;
   Display<Bodies> bodies_;
@@ -127,19 +163,17 @@ void record_gas_load(Session<System>& session, const std::string& name,
                    });
 }
 
-/// Records in history.csv the sum of all forces on a body: of gas, joints, weight, and parts beside
-/// it. Columns total_force_<name>_x ...
-/// @param parts  that the body is made of
+/// Records all that acts on a body in gas but its weight: the columns of record_gas_load, and those
+/// of record_body_loads without gas.
+/// @param parts  that the body is made of: all that share nodes
+/// @param sets   of virtual particles that ride on it
+/// @param about  the point of the moment
 template <class System, class Part>
-void record_total_force(Session<System>& session, const std::string& name,
-                        const std::vector<mbs::Placed<Part>>& parts) {
-  for (int k = 0; k < Part::dim; ++k)
-    session.record("total_force_" + name + "_" + "xyz"[k], "N",
-                   [&system = session.system(), parts, k] {
-                     double force = 0;
-                     for (const auto& part : parts) force += momentum(part, system.state().vdot)[k];
-                     return force;
-                   });
+void record_body_loads(Session<System>& session, const std::string& name,
+                       const std::vector<mbs::Placed<Part>>& parts, const std::vector<int>& sets,
+                       const mbs::Marker<Part::dim>& about) {
+  record_gas_load(session, name, sets, about);
+  record_body_loads(session, name, parts);
 }
 
 /// Result for the noise of the gas's force on a body: the standard deviation over the last tenth of

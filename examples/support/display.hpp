@@ -15,6 +15,7 @@ namespace sphmbs::examples {
 ///                                 files of one time; @return the names of those to be listed
 ///   phases()                      parts of the time that steps take
 ///   summarise(summary)            adds its counts and what it conserves
+///   guard(guards), watch(report)  of a gas: what is done where some gets lost, and a look at that
 ///   visit_state(archive)          what it has gathered, where it gathers; see core/archive.hpp
 template <class System>
 class Display;

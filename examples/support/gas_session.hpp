@@ -12,6 +12,7 @@
 #include <sphmbs/sphmbs.hpp>
 
 #include "support/backends.hpp"
+#include "support/gas_watch.hpp"
 #include "support/session.hpp"
 #include "support/snapshot.hpp"
 
@@ -25,7 +26,7 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
   static constexpr int dim = Fluid::dim;
   static constexpr std::string_view collection = "fields";
 
-  explicit Display(Fluid& fluid) : fluid_(fluid), start_(fluid.totals()) {}
+  explicit Display(Fluid& fluid) : fluid_(fluid), watch_(fluid) {}
 
   std::vector<io::CsvWriter::Column> columns() const { return {}; }
   void sample(std::vector<double>&) const {}
@@ -96,23 +97,19 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
 
   void summarise(Summary& s) const {
     const sph::Statistics& done = fluid_.statistics();
-    const auto end = fluid_.totals();
-    const auto& received = fluid_.exchange();
     s.particles = {static_cast<std::int64_t>(fluid_.gas_count()),
                    static_cast<std::int64_t>(fluid_.virtual_count())};
     s.steps = static_cast<std::int64_t>(done.steps);
     s.pair_interactions = static_cast<std::int64_t>(done.pair_interactions);
-    auto passed = sph::Passed<dim>{};  // into the gas, less what went out
-    for (const auto& opening : fluid_.traffic()) passed.combine(opening.net());
-    s.conservation.mass = (end.mass - start_.mass - passed.mass) / start_.mass;
-    const Vec<dim> gained = end.momentum - start_.momentum - received.impulse() - passed.momentum;
-    s.conservation.momentum =
-        std::sqrt(norm2(gained)) / std::sqrt(2 * end.mass * (end.kinetic + end.internal));
-    const double energy = end.energy() + end.virtual_internal - start_.energy() -
-                          start_.virtual_internal - received.body_work() - received.driving_work() -
-                          passed.energy +
-                          fluid_.scheme().background * (end.volume - start_.volume - passed.volume);
-    s.conservation.energy = energy / (start_.energy() + start_.virtual_internal);
+    watch_.summarise(s);
+  }
+
+  void guard(const Guards& guards) { watch_.guard(guards); }
+  void watch(Report& report) { watch_.look(report); }
+
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("watch", watch_);
   }
 
  private:
@@ -136,7 +133,7 @@ class Display<sph::Fluid<Scheme, Policy, Motion, T>> {
   }
 
   Fluid& fluid_;
-  sph::Totals<dim> start_;
+  GasWatch<Fluid> watch_;
 };
 
 }  // namespace sphmbs::examples

@@ -10,6 +10,7 @@
 #include <malloc.h>
 
 #include "sphmbs/core/error.hpp"
+#include "support/interruption.hpp"
 #include "support/run_control.hpp"
 #include "support/text.hpp"
 
@@ -36,7 +37,9 @@ int guarded_main(int argc, const char* const* argv, Parameters& parameters,
   } catch (const BadParameters& error) {
     return end_with(ExitCode::bad_input, error.what());
   } catch (const RefusedValue& error) {
-    return end_with(ExitCode::bad_input, parameters.located(error).what());
+    return end_with(ExitCode::bad_input, parameters.located({error}).what());
+  } catch (const RefusedValues& error) {
+    return end_with(ExitCode::bad_input, parameters.located(error.all).what());
   } catch (const InvalidInput& error) {
     return end_with(ExitCode::bad_input, line(error.id, one_line(error.what())));
   } catch (const NumericalFailure& error) {
@@ -62,6 +65,7 @@ int guarded_main(int argc, const char* const* argv, Parameters& parameters,
   // memory of fields that were written out.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
+  end_at_signals();
   return guarded_main(argc, argv, parameters, run, std::cout, std::cerr);
 }
 

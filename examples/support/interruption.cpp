@@ -3,6 +3,7 @@
 
 #include <array>
 #include <csignal>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -19,12 +20,18 @@ extern "C" void note_end(int signal) {
   if (signal == SIGINT && end_signal == SIGINT) ::_exit(128 + SIGINT);
   end_signal = signal;
 }
+extern "C" void end_at_once(int signal) {
+  constexpr std::string_view message = "stopped   before the first step, with nothing to save\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(128 + signal);
+}
 extern "C" void note_save(int) { save_asked = 1; }
 
 void handle(int signal, void (*handler)(int)) {
   struct sigaction before {};
   ::sigaction(signal, nullptr, &before);
-  if (handler == note_end && before.sa_handler == SIG_IGN) return;  // as under nohup
+  const bool ends = handler == note_end || handler == end_at_once;
+  if (ends && before.sa_handler == SIG_IGN) return;  // as under nohup
   struct sigaction action {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
@@ -53,6 +60,10 @@ bool Interruption::take_save() const {
   const bool asked = save_asked != 0;
   save_asked = 0;
   return asked;
+}
+
+void end_at_signals() {
+  for (const int signal : ending) handle(signal, end_at_once);
 }
 
 std::string name_of_signal(int signal) {

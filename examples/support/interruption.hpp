@@ -22,6 +22,10 @@ class Interruption {
   bool take_save() const;
 };
 
+/// From now on, while there is nothing to save yet, a signal that asks the process to end does so
+/// at once, with exit code 128 + its number; until an Interruption lives.
+void end_at_signals();
+
 /// "SIGTERM" and so on.
 std::string name_of_signal(int signal);
 

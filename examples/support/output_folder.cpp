@@ -93,11 +93,14 @@ void OutputLock::acquire(const fs::path& directory) {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail();
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    fault_.clear();
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) continue;
+    if (errno == EWOULDBLOCK) {
       ::close(descriptor_);
       descriptor_ = -1;
       throw InvalidInput(directory.string() + ": " + in_use(file), "E031");
     }
+    fault_ = "cannot lock " + file.string() + ": " + reason();
   } while (!is_named(descriptor_, file));
   file_ = file;
   const std::string line = "process " + std::to_string(::getpid()) + " on " + host() + "\n";

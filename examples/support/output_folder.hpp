@@ -20,13 +20,17 @@ class OutputLock {
   OutputLock& operator=(const OutputLock&) = delete;
 
   /// Throws InvalidInput with the number of the process that has the directory, and OutputError if
-  /// the file cannot be made. Nothing happens if this lock has the directory already.
+  /// the file cannot be made. Where the file system has no locks, fault() says so. Nothing happens
+  /// if this lock has the directory already.
   void acquire(const std::filesystem::path& directory);
   /// Removes the file.
   void release();
+  /// Why the file could not be locked, and other runs are not kept out; empty where they are.
+  const std::string& fault() const { return fault_; }
 
  private:
   std::filesystem::path file_{};
+  std::string fault_{};
   int descriptor_ = -1;
 };
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/parameters.hpp"
 
+#include <array>
+#include <cstdio>
+#include <fstream>
 #include <ostream>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +14,7 @@
 #include "support/parameter_file.hpp"
 #include "support/parameters_parts.hpp"
 
+#include "sphmbs/io/crc64.hpp"
 #include "sphmbs/version.hpp"
 
 namespace sphmbs::examples {
@@ -17,6 +22,25 @@ namespace {
 
 About about(const std::string& key, const std::string& meaning, const std::string& option) {
   return {key, meaning, option.empty() ? std::vector<std::string>{} : std::vector{option}};
+}
+
+/// Checksum and size of a file, to tell whether it is still the same.
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return "not readable";
+  io::Crc64 checksum;
+  std::size_t size = 0;
+  std::array<char, 1 << 16> piece;
+  do {
+    file.read(piece.data(), piece.size());
+    const auto read = static_cast<std::size_t>(file.gcount());
+    checksum.add(std::as_bytes(std::span(piece).first(read)));
+    size += read;
+  } while (file);
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx",
+                static_cast<unsigned long long>(checksum.value()));
+  return std::string(digits.data()) + " (CRC-64 of " + std::to_string(size) + " bytes)";
 }
 
 }  // namespace
@@ -63,6 +87,7 @@ void Parameters::add_path(const std::string& key, std::string& value, const std:
   parts_->add(text_parameter(
       about(key, meaning, option), "FILE", "the path of a file", [&value] { return value; },
       [&value](const std::string& path) { value = path; }));
+  parts_->files.push_back({key, &value});
 }
 
 void Parameters::add_vector(const std::string& key, std::span<double> value, const Bounds& bounds,
@@ -101,6 +126,7 @@ std::optional<Settings> Parameters::parse(int argc, const char* const* argv, std
   }
   Settings accepted = parts.settings;
   accepted.used = dump();
+  for (const auto& [key, path] : parts.files) accepted.contents[key] = content_of(*path);
   accepted.lock = std::make_shared<OutputLock>();
   return accepted;
 }
@@ -129,18 +155,20 @@ std::string Parameters::memory_advice() const {
                              : "fewer elements need less of it";
 }
 
-BadParameters Parameters::located(const RefusedValue& refused) const {
-  const Parameter* const p = parts_->find(refused.name);
-  std::string name = refused.name;
-  Place place{"default"};
-  if (p && p->origin) {
-    place = p->origin->place;
-    name = p->origin->name;
-  } else if (p && !p->key.empty()) {
-    name = p->key;
-  }
+BadParameters Parameters::located(const std::vector<RefusedValue>& all) const {
   Complaints complaints;
-  complaints.add(place, refused.id, named(name, refused.value) + refused.why);
+  for (const RefusedValue& refused : all) {
+    const Parameter* const p = parts_->find(refused.name);
+    std::string name = refused.name;
+    Place place{"default"};
+    if (p && p->origin) {
+      place = p->origin->place;
+      name = p->origin->name;
+    } else if (p && !p->key.empty()) {
+      name = p->key;
+    }
+    complaints.add(place, refused.id, named(name, refused.value) + refused.why);
+  }
   try {
     complaints.raise();
   } catch (const BadParameters& error) {

@@ -77,8 +77,8 @@ class Parameters {
   std::string version_line() const;
   /// How to make a run fit into the memory: "a larger --spacing means fewer particles".
   std::string memory_advice() const;
-  /// A complaint of require(), with the place where the value was given.
-  BadParameters located(const RefusedValue& refused) const;
+  /// Complaints of require() and require_all(), with the places where the values were given.
+  BadParameters located(const std::vector<RefusedValue>& all) const;
 
  private:
   struct Parts;

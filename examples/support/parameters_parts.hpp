@@ -4,6 +4,7 @@
 #include <deque>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "support/command_line.hpp"
@@ -18,6 +19,8 @@ struct Parameters::Parts {
   // Parameters refer to members of this, and are referred to by what was read.
   std::deque<Parameter> all;
   std::size_t common = 0;
+  // Files that parameters name: keys and paths.
+  std::vector<std::pair<std::string, const std::string*>> files;
   bool dump = false;
 
   Parameter& add(Parameter parameter);

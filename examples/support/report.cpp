@@ -83,17 +83,34 @@ std::string difference_text(const Result& result) {
 void print_structure(std::ostream& out, const Summary& summary, const std::string& aside) {
   const StructureCounts& structure = *summary.structure;
   const double steps = std::max(1.0, static_cast<double>(summary.steps));
-  std::string text = format_number(static_cast<double>(structure.iterations) / steps, 3) +
-                     " iterations a step, " + format_count(structure.factorisations) +
-                     " factorisations";
-  if (structure.halvings > 0) text += ", " + format_count(structure.halvings) + " halvings";
-  if (structure.rejected > 0) text += ", " + format_count(structure.rejected) + " rejected";
+  const std::string text = format_number(static_cast<double>(structure.iterations) / steps, 3) +
+                           " iterations a step, " + format_count(structure.factorisations) +
+                           " factorisations";
   print_line(out, "newton", text, aside);
   if (has_gas(summary)) return;
   print_line(out, "conserved", "energy " + format_number(summary.conservation.energy, 2),
              "(over the largest kinetic energy)");
   print_line(out, "joints", "hold to " + format_number(structure.violation, 2),
              "(over the structure's size)");
+}
+
+std::string incidents_text(const Summary& summary) {
+  std::string text;
+  const auto add = [&text](std::int64_t count, const char* what) {
+    text += (text.empty() ? "" : ", ") + format_count(count) + " " + what;
+  };
+  if (has_gas(summary)) {
+    const Incidents& met = summary.incidents;
+    add(met.lost, "particles lost");
+    if (met.leaked) add(*met.leaked, "leaked");
+    add(met.retries, "steps tried again");
+    add(met.refused, "reconstructions refused");
+  }
+  if (summary.structure) {
+    add(summary.structure->halvings, "halvings");
+    add(summary.structure->rejected, "steps of bodies rejected");
+  }
+  return text;
 }
 
 void print_results(std::ostream& out, const std::vector<Result>& results) {
@@ -254,6 +271,7 @@ void Report::finish(const Summary& summary, const std::vector<std::string>& writ
                    format_number(conservation.energy, 2),
                "(relative change)");
   }
+  print_line(out, "incidents", incidents_text(summary));
   if (!summary.results.empty()) print_results(out, summary.results);
   for (const Warning& warning : warnings_) {
     print_line(out, "warning",

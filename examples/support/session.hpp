@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -19,15 +19,17 @@
 #include <sphmbs/run.hpp>
 #include <sphmbs/version.hpp>
 
+#include "support/bus_sent.hpp"
 #include "support/crash_report.hpp"
 #include "support/display.hpp"
-#include "support/history.hpp"
 #include "support/output_folder.hpp"
 #include "support/probes.hpp"
+#include "support/recorder.hpp"
 #include "support/report.hpp"
 #include "support/run_control.hpp"
 #include "support/session_checkpoints.hpp"
 #include "support/text.hpp"
+#include "support/type_identity.hpp"
 #include "support/view_script.hpp"
 
 namespace sphmbs::examples {
@@ -39,7 +41,7 @@ class Session {
  public:
   using Place = Vec<System::dim>;
   /// Interval of trajectories.csv [s].
-  static constexpr double trace_interval = 5e-3;
+  static constexpr double trace_interval = Recorder::trace_interval;
 
   Session(const Settings& settings, std::string name, std::string title, System& system)
       : settings_(settings),
@@ -50,8 +52,8 @@ class Session {
         probes_(probes_of(settings.probes, system)),
         control_(settings_),
         report_(settings.quiet) {
-    for (const auto& column : display_.columns()) history_.add(column.name, column.unit);
-    sampled_.push_back([this](std::vector<double>& row) { display_.sample(row); });
+    recorder_.record(display_.columns(),
+                     [this](std::vector<double>& row) { display_.sample(row); });
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -70,26 +72,22 @@ class Session {
     gas.sample(place);
   }
   {
-    history_.add("speed_" + name, "m/s");
-    history_.add("p_" + name, "Pa");
-    sampled_.push_back([this, place](std::vector<double>& row) {
-      const auto s = system_.sample(place);
-      row.push_back(std::sqrt(norm2(s.v)));
-      row.push_back(s.p);
-    });
+    recorder_.record({{"speed_" + name, "m/s"}, {"p_" + name, "Pa"}},
+                     [this, place](std::vector<double>& row) {
+                       const auto s = system_.sample(place);
+                       row.push_back(std::sqrt(norm2(s.v)));
+                       row.push_back(s.p);
+                     });
   }
 
   /// Records any quantity in history.csv.
   void record(const std::string& name, const std::string& unit, std::function<double()> value) {
-    history_.add(name, unit);
-    sampled_.push_back(
-        [value = std::move(value)](std::vector<double>& row) { row.push_back(value()); });
+    recorder_.record(name, unit, std::move(value));
   }
 
   /// Records any quantity in trajectories.csv.
   void trace(const std::string& name, const std::string& unit, std::function<double()> value) {
-    traces_.add(name, unit);
-    traced_.push_back(std::move(value));
+    recorder_.trace(name, unit, std::move(value));
   }
 
   /// Writes fields and pictures `fields` times and samples the history `samples` times until the
@@ -101,24 +99,22 @@ class Session {
   void run(const Integrator& integrator, int samples, int fields) {
     const bool is_new = prepare_output(settings_);
     const Clock::time_point begin = Clock::now();
-    SessionCheckpoints checkpoints(settings_, name_, identity());
+    SessionCheckpoints checkpoints(settings_, name_, identity_of_types(system_));
     const auto from = settings_.resume ? checkpoints.open(report_) : nullptr;
+    if constexpr (requires { display_.guard(settings_.guards); }) display_.guard(settings_.guards);
     display_.prepare();
 
     Every sampling(
         settings_.until / samples, [&](System&) { timed([&] { sample(); }); }, Timing::next_step);
-    Every tracing(traced_.empty() ? settings_.until : trace_interval,
-                  [&](System&) { timed([&] { trace_row(); }); });
+    Every tracing(recorder_.has_traces() ? trace_interval : settings_.until,
+                  [&](System&) { timed([&] { recorder_.trace(system_.time()); }); });
     const std::string list = std::string(Display<System>::collection) + ".pvd";
     std::optional<io::PvdCollection> collection;
     Every writing(settings_.until / fields,
-                  [&](System&) { timed([&] { write_fields(*collection); }); });
-    written_ = {list, "history.csv", "view.py"};
-    if (!traced_.empty()) written_.push_back("trajectories.csv");
+                  [&](System&) { timed([&] { try_fields(*collection); }); });
+    written_ = {list, "view.py"};
+    for (std::string& name : recorder_.names()) written_.push_back(std::move(name));
     if (settings_.check) check(is_new, seconds_since(begin));
-    write_used(settings_);
-    control_.begin();
-    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     std::vector<ProbeProgress> probed;
     const auto show = [&](auto& archive) {
       if constexpr (!std::remove_cvref_t<decltype(archive)>::restores) probed = probes_.progress();
@@ -127,42 +123,50 @@ class Session {
       archive("sampling", sampling);
       archive("tracing", tracing);
       archive("writing", writing);
-      archive("collection", *collection);
-      archive("history", history_);
-      archive("traces", traces_);
+      archive("recorder", recorder_);
       archive("probes", probed);
       archive("written", written_);
       archive("frames", frames_);
       archive("output_seconds", output_seconds_);
       archive("wall_seconds", wall_seconds_);
+      archive("collection", *collection);  // writes the list: nothing is refused behind it
     };
-    collection.emplace(file(list));
     if (from) {
+      collection.emplace(file(list), io::PvdCollection::Restored{});
       io::StateReader reader(*from);
       show(reader);
+      checkpoints.go_on_from(*from);
     } else {
       checkpoints.forget_earlier();
+      collection.emplace(file(list));
     }
+    write_used(settings_);
+    control_.begin();
+    std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     const double earlier = wall_seconds_;
     banner(is_new, from ? from->path().string() : "");
     const std::string comment = name_ + ", sphmbs " + std::string(version);
-    history_.begin(file("history.csv"), comment);
-    if (!traced_.empty()) traces_.begin(file("trajectories.csv"), comment);
-
+    recorder_.begin(settings_.output, comment);
     if (!from)
       write_view_script(settings_.output, view_of(system_, title_, list, settings_.spacing));
     probes_.begin(settings_.output, comment, settings_.until / samples, probed);
+    const auto save = [&] {
+      for (const std::string& name : tables()) fresh_.insert(file(name));
+      auto path = checkpoints.save(steps(), report_, control_, fresh_, show);
+      if (!path.empty()) fresh_.clear();
+      return path;
+    };
 
     RunControl::Decision decision;
     std::filesystem::path saved;
     BetweenSteps boundary([&](System&) {
       decision = control_.decide(steps());
       wall_seconds_ = earlier + seconds_since(begin);
-      if (decision.save) timed([&] { saved = checkpoints.save(steps(), report_, control_, show); });
+      if (decision.save) timed([&] { saved = save(); });
       return decision.stop.empty();
     });
     steps_sent_ -= sent();
-    const Schedule schedule{settings_.until, settings_.cfl, step()};
+    const Schedule schedule{settings_.until, settings_.cfl, recorder_.step(settings_.step)};
     bool ended = false;
     try {
       ended = sphmbs::run(
@@ -211,9 +215,9 @@ class Session {
     report_.finish(summary, paths);
   }
 
-  History& history() { return history_; }
+  History& history() { return recorder_.history; }
   /// What trajectories.csv holds.
-  History& traces() { return traces_; }
+  History& traces() { return recorder_.traces; }
   const Settings& settings() const { return settings_; }
   const std::string& title() const { return title_; }
   System& system() { return system_; }
@@ -228,28 +232,7 @@ class Session {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  /// Over the bus of a device: bytes, and loops that were started.
-  struct Sent {
-    double bytes = 0;
-    double loops = 0;
-    double arguments = 0;
-    Sent& operator+=(const Sent& o) {
-      bytes += o.bytes;
-      loops += o.loops;
-      arguments += o.arguments;
-      return *this;
-    }
-    Sent& operator-=(const Sent& o) { return *this += {-o.bytes, -o.loops, -o.arguments}; }
-    friend Sent operator-(Sent a, const Sent& b) { return a -= b; }
-  };
-  Sent sent() const {
-    if constexpr (requires { display_.bus(); }) {
-      const auto bus = display_.bus();
-      return {static_cast<double>(bus.bytes()), static_cast<double>(bus.launches),
-              static_cast<double>(bus.arguments)};
-    }
-    return {};
-  }
+  BusSent sent() const { return BusSent::until_now(display_); }
 
   /// Samples probes that are due; holds up no step.
   struct AtProbes {
@@ -264,41 +247,23 @@ class Session {
   template <class Output>
   void timed(Output&& output) {
     const Clock::time_point begin = Clock::now();
-    const Sent before = sent();
+    const BusSent before = sent();
     output();
     output_seconds_ += seconds_since(begin);
     steps_sent_ -= sent() - before;
   }
 
-  // A fixed step, shortened so that trajectories meet their times.
-  std::optional<double> step() const {
-    if (!settings_.step || traced_.empty()) return settings_.step;
-    return trace_interval / std::ceil(trace_interval / *settings_.step - 1e-9);
+  // Those that grow.
+  std::vector<std::string> tables() const {
+    std::vector<std::string> names = recorder_.names();
+    for (std::string& name : probes_.names()) names.push_back(std::move(name));
+    return names;
   }
 
   std::int64_t steps() const {
     Progress state;
     display_.progress(state);
     return state.step;
-  }
-
-  // The types that the state is of.
-  io::Identity identity() const {
-    io::Identity types{{"dimension", std::to_string(System::dim)}};
-    const auto add_gas = [&]<class Scheme>(std::type_identity<Scheme>) {
-      types["kernel"] = readable_type(typeid(typename Scheme::Kernel));
-      types["Riemann solver"] = readable_type(typeid(typename Scheme::Riemann));
-      types["equation of state"] = readable_type(typeid(decltype(Scheme::eos)));
-      types["scheme"] = readable_type(typeid(Scheme));
-    };
-    if constexpr (requires { typename System::SchemeType; })
-      add_gas(std::type_identity<typename System::SchemeType>());
-    else if constexpr (requires { system_.fluid(); })
-      add_gas(std::type_identity<
-              typename std::remove_cvref_t<decltype(system_.fluid())>::SchemeType>());
-    if constexpr (requires { system_.structure(); })
-      types["structure"] = readable_type(typeid(system_.structure()));
-    return types;
   }
 
   // Ends a run that is only looked at.
@@ -355,7 +320,7 @@ class Session {
            resumed});
     lines.insert(lines.end(), notes_.begin(), notes_.end());
     Settings shown = settings_;
-    shown.step = step();
+    shown.step = recorder_.step(settings_.step);
     const auto own = display_.banner(shown);
     lines.insert(lines.end(), own.begin(), own.end());
     report_.banner(title_, lines);
@@ -371,6 +336,9 @@ class Session {
                          " s is longer than the run, " + format_exact(settings_.until) +
                          " s: it has a row of the beginning and one of the end");
     display_.heed(shown, report_);
+    if (settings_.lock && !settings_.lock->fault().empty())
+      report_.warn("no lock",
+                   "W033 " + settings_.lock->fault() + "; start no second run in this directory");
   }
 
   void progress(const sph::StepLimit& limit) {
@@ -385,25 +353,29 @@ class Session {
   }
 
   void sample() {
-    std::vector<double> row;
-    for (const auto& add : sampled_) add(row);
-    history_.row(system_.time(), row);
-  }
-
-  void trace_row() {
-    if (traced_.empty()) return;
-    std::vector<double> row;
-    for (const auto& value : traced_) row.push_back(value());
-    const double t = system_.time(), due = trace_interval * std::round(t / trace_interval);
-    traces_.row(std::abs(t - due) < 1e-9 * trace_interval ? due : t, row);
+    recorder_.sample(system_.time());
+    if constexpr (requires { display_.watch(report_); }) display_.watch(report_);
   }
 
   void write_fields(io::PvdCollection& collection) {
     const std::string number = std::to_string(10000 + frames_++).substr(1);
     int part = 0;
     for (const std::string& name :
-         display_.write(settings_.output, title_, number, settings_.plots))
+         display_.write(settings_.output, title_, number, settings_.plots)) {
       collection.add(system_.time(), name, part++);
+      fresh_.insert(file(name));
+    }
+  }
+
+  // A failure is a warning, and the next fields are tried; the third in a row ends the run.
+  void try_fields(io::PvdCollection& collection) {
+    try {
+      write_fields(collection);
+      failed_fields_ = 0;
+    } catch (const OutputError& error) {
+      if (++failed_fields_ >= 3) throw;
+      report_.warn("fields not written", std::string("W500 ") + error.what());
+    }
   }
 
   Summary summarise() {
@@ -425,12 +397,7 @@ class Session {
     s.results = results_;
     display_.summarise(s);
     probes_.summarise(s);
-    if (steps_sent_.loops > 0) {
-      const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
-      const double particles = static_cast<double>(s.particles.gas + s.particles.virtual_particles);
-      s.bus = BusCounts{steps_sent_.bytes / steps, steps_sent_.bytes / steps / particles,
-                        steps_sent_.loops / steps, steps_sent_.arguments / steps};
-    }
+    s.bus = steps_sent_.per_step(s.steps, s.particles);
     return s;
   }
 
@@ -443,15 +410,14 @@ class Session {
   RunControl control_;
   Report report_;
   std::vector<BannerLine> notes_;
-  History history_;
-  History traces_;
-  std::vector<std::function<void(std::vector<double>&)>> sampled_;
-  std::vector<std::function<double()>> traced_;
+  Recorder recorder_;
   std::vector<Result> results_;
   std::vector<std::string> written_;
+  std::set<std::filesystem::path> fresh_;  // written since the last checkpoint
   int frames_ = 0;
+  int failed_fields_ = 0;  // in a row
   double output_seconds_ = 0;
-  Sent steps_sent_;
+  BusSent steps_sent_;
   double wall_seconds_ = 0;
 };
 

@@ -41,6 +41,7 @@ io::Identity parameters_in(const std::string& text) {
 
 /// What may change from one part of a run to the next.
 bool is_harmless(const std::string& parameter) {
+  if (parameter.starts_with("guards.")) return true;
   constexpr std::array<std::string_view, 9> names{
       "run.until",    "run.fields", "run.samples", "run.steps",           "run.threads",
       "run.walltime", "run.plots",  "run.quiet",   "run.checkpoint_every"};
@@ -65,6 +66,7 @@ SessionCheckpoints::SessionCheckpoints(const Settings& settings, const std::stri
   identity_["version"] = std::string(version);
   identity_["backend"] = settings.backend;
   identity_["precision"] = settings.precision;
+  for (const auto& [key, content] : settings.contents) identity_["content of " + key] = content;
   identity_.merge(parameters_in(settings.used));
 }
 
@@ -83,8 +85,11 @@ std::unique_ptr<io::CheckpointFile> SessionCheckpoints::open(Report& report) con
                            "; start without it, or name one with --resume FILE",
                        "E040");
   io::require_same_identity(*file, io::Checkpoints::identity_of(*file), identity_, is_harmless);
-  checkpoints_.set_aside_others(file->path());
   return file;
+}
+
+void SessionCheckpoints::go_on_from(const io::CheckpointFile& file) const {
+  checkpoints_.set_aside_others(file.path());
 }
 
 void SessionCheckpoints::forget_earlier() const {

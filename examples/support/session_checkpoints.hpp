@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <typeinfo>
 
 #include <sphmbs/io/checkpoints.hpp>
+#include <sphmbs/io/durable_file.hpp>
 
 #include "support/report.hpp"
 #include "support/run_control.hpp"
@@ -30,16 +32,21 @@ class SessionCheckpoints {
   ///         to another run.
   std::unique_ptr<io::CheckpointFile> open(Report& report) const;
 
+  /// Once the state is restored: checkpoints of another course of the run are set aside.
+  void go_on_from(const io::CheckpointFile& file) const;
+
   /// For a run from the beginning: no earlier checkpoint may be taken for one of it.
   void forget_earlier() const;
 
-  /// Saves the state that `show` shows to a StateWriter. A failure is a warning.
+  /// Saves the state that `show` shows to a StateWriter, behind the results that it goes on from,
+  /// which are handed to the disk first. A failure is a warning.
   /// @return the file; empty where it could not be written
   /// @throws OutputError for the third failure in a row.
   template <class Show>
   std::filesystem::path save(std::int64_t step, Report& report, RunControl& control,
-                             const Show& show) {
+                             const std::set<std::filesystem::path>& results, const Show& show) {
     try {
+      io::hand_to_disk(results);
       const auto path = checkpoints_.write(static_cast<std::uint64_t>(step), identity_, show);
       control.saved();
       return path;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/settings.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "sphmbs/execution/host_memory.hpp"
 #include "support/text.hpp"
 
@@ -29,6 +32,29 @@ void require(bool condition, std::string_view name, double value, std::string_vi
 void require(bool condition, std::string_view name, std::string_view value,
              std::string_view allowed) {
   if (!condition) throw RefusedValue(name, value, "must be " + std::string(allowed));
+}
+
+Requirement::Requirement(bool condition, std::string_view name, double value,
+                         std::string_view allowed)
+    : Requirement(condition, name, format_exact(value), allowed) {}
+
+Requirement::Requirement(bool condition, std::string_view name, std::string_view value,
+                         std::string_view allowed)
+    : holds(condition), refused(name, value, "must be " + std::string(allowed)) {}
+
+RefusedValues::RefusedValues(std::vector<RefusedValue> some)
+    : InvalidInput(some.front().what(), some.front().id), all(std::move(some)) {}
+
+void require_all(const std::vector<Requirement>& requirements) {
+  std::vector<RefusedValue> refused;
+  for (const Requirement& r : requirements) {
+    const auto same = [&r](const RefusedValue& other) {
+      return other.name == r.refused.name && other.why == r.refused.why;
+    };
+    if (!r.holds && std::none_of(refused.begin(), refused.end(), same))
+      refused.push_back(r.refused);
+  }
+  if (!refused.empty()) throw RefusedValues(std::move(refused));
 }
 
 void require_memory(double particles, double spacing) {

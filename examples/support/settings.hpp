@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,17 @@
 namespace sphmbs::examples {
 
 class OutputLock;
+
+/// What a run does about gas that cannot be accounted for.
+struct Guards {
+  /// "stop" ends a run whose balance goes beyond its limits, "warn" warns alone, "off" does not
+  /// look. Where gas comes in and goes out, "stop" warns too.
+  std::string balance = "stop";
+  /// Share of the energy at the start that may be unaccounted for before a run stops [-].
+  double energy = 0.2;
+  /// Gas particles that may go through thin bodies before a run stops; without it, any number.
+  std::optional<std::int64_t> leaks{};
+};
 
 /// What every example program lets its user choose.
 struct Settings {
@@ -63,10 +75,14 @@ struct Settings {
   double checkpoint_every = 600;
   /// Number of steps after which the run ends.
   std::optional<std::int64_t> steps{};
+  /// Of a program with gas.
+  Guards guards{};
   /// Where the gas is sampled, beside what the program samples.
   std::vector<ProbeSpec> probes{};
   /// All parameters as a parameter file, for used.toml; empty writes none.
   std::string used{};
+  /// What is in the files that parameters name, by key: checksum and size.
+  std::map<std::string, std::string> contents{};
   /// Keeps other runs out of `output` once prepare_output() has been called; shared by all copies.
   std::shared_ptr<OutputLock> lock{};
 };
@@ -116,6 +132,26 @@ struct RefusedValue : InvalidInput {
 void require(bool condition, std::string_view name, double value, std::string_view allowed);
 void require(bool condition, std::string_view name, std::string_view value,
              std::string_view allowed);
+
+/// A condition between parameters, or of one and the problem; see require().
+struct Requirement {
+  Requirement(bool condition, std::string_view name, double value, std::string_view allowed);
+  Requirement(bool condition, std::string_view name, std::string_view value,
+              std::string_view allowed);
+
+  bool holds;
+  RefusedValue refused;  // where it does not hold
+};
+
+/// All values that do not fit the problem.
+struct RefusedValues : InvalidInput {
+  explicit RefusedValues(std::vector<RefusedValue> some);
+  std::vector<RefusedValue> all;
+};
+
+/// Checks several together, so that all complaints come at once. Throws RefusedValues unless all
+/// hold.
+void require_all(const std::vector<Requirement>& requirements);
 
 /// Checks that about `particles` of them fit into the memory of this computer. Throws RefusedValue
 /// naming --spacing, its value and how many would fit.

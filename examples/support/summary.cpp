@@ -66,6 +66,13 @@ Json to_json(const Summary& summary) {
   }
   conservation["energy"] = summary.conservation.energy;
   json["conservation"] = conservation;
+  if (gas) {
+    const Incidents& met = summary.incidents;
+    json["incidents"] = {{"particles_lost", met.lost},
+                         {"steps_retried", met.retries},
+                         {"reconstructions_refused", met.refused}};
+    if (met.leaked) json["incidents"]["particles_leaked"] = *met.leaked;
+  }
   json["results"] = results;
   return json;
 }

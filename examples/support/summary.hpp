@@ -57,6 +57,18 @@ struct StructureCounts {
   double violation = 0.0;
 };
 
+/// What went wrong with the gas of a run, and went on.
+struct Incidents {
+  /// Particles that left the domain where it lets none out by openings.
+  std::int64_t lost = 0;
+  /// Steps that failed, and were tried again in shorter ones.
+  std::int64_t retries = 0;
+  /// Pairs of particles whose reconstruction was not admissible, and that did without.
+  std::int64_t refused = 0;
+  /// Gas particles that went through thin bodies, where there are such.
+  std::optional<std::int64_t> leaked{};
+};
+
 /// What the steps of a run sent over the bus of a device, without output.
 struct BusCounts {
   double bytes_per_step = 0.0;
@@ -88,6 +100,8 @@ struct Summary {
   /// Largest amount of memory in use at a time [bytes]; see peak_memory().
   std::uint64_t peak_memory_bytes = 0;
   Conservation conservation{};
+  /// Of a run with gas.
+  Incidents incidents{};
   std::vector<Result> results{};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/coupling/surroundings.hpp>
 
@@ -48,7 +50,9 @@ class Leaks {
       const auto before = last_.find(id);
       if (before == last_.end()) continue;
       const Place& b = before->second;
-      if ((place.inside && !b.inside) || dot(place.side, b.side) < 0) crossed_.push_back(id);
+      // Beside a hinge the nearest body may be another one, whose normal is another too.
+      const bool through = dot(place.side, b.side) < -0.7;
+      if ((place.inside && !b.inside) || through) crossed_.push_back(id);
     }
     last_ = std::move(now);
     if (crossed_.size() > most_)
@@ -63,6 +67,31 @@ class Leaks {
 
   /// Ids of the gas that has gone through surfaces, once for each time.
   const std::vector<std::uint32_t>& crossed() const { return crossed_; }
+
+  /// What a checkpoint keeps of it, see `Archive`: where gas was at the last look.
+  template <Archive A>
+  void visit_state(A& archive) {
+    std::vector<std::uint32_t> id;
+    std::vector<std::uint8_t> inside;
+    std::vector<double> side;
+    for (const auto& [number, place] : last_) {
+      id.push_back(number);
+      inside.push_back(place.inside);
+      side.insert(side.end(), place.side.component, place.side.component + dim);
+    }
+    archive("id", id);
+    archive("inside", inside);
+    archive("side", side);
+    archive("crossed", crossed_);
+    if constexpr (A::restores) {
+      last_.clear();
+      for (std::size_t k = 0; k < std::min({id.size(), inside.size(), side.size() / dim}); ++k) {
+        Place& place = last_[id[k]];
+        place.inside = inside[k] != 0;
+        std::copy_n(&side[k * dim], dim, place.side.component);
+      }
+    }
+  }
 
  private:
   struct Place {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <system_error>
@@ -17,6 +18,31 @@
 #include <sphmbs/core/error.hpp>
 
 namespace sphmbs::io {
+
+/// Hands files that were written, and the folders they are in, to the disk: they are there when the
+/// power fails. Those that are gone are left out.
+/// @throws OutputError with path and reason.
+inline void hand_to_disk(const std::set<std::filesystem::path>& files) {
+  const auto hand = [](const std::filesystem::path& path, int kind) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | kind);
+    int failed = file < 0 ? errno : 0;
+    // Some systems cannot do this for folders.
+    while (failed == 0 && ::fsync(file) != 0)
+      if (errno != EINTR) failed = errno == EINVAL ? -1 : errno;
+    if (file >= 0) ::close(file);
+    // A folder that may not be read gets there in its own time.
+    const bool harmless = failed == ENOENT || (kind == O_DIRECTORY && failed == EACCES);
+    if (failed > 0 && !harmless)
+      throw OutputError("cannot hand to the disk " + path.string() + ": " +
+                        std::generic_category().message(failed));
+  };
+  std::set<std::filesystem::path> folders;
+  for (const std::filesystem::path& path : files) {
+    hand(path, 0);
+    folders.insert(path.has_parent_path() ? path.parent_path() : ".");
+  }
+  for (const std::filesystem::path& folder : folders) hand(folder, O_DIRECTORY);
+}
 
 /// A file that appears under its name complete, and once it does stays there when the power fails:
 /// written under another name, handed to the disk, renamed. One that is not finished leaves

@@ -24,22 +24,35 @@ class PvdCollection {
  public:
   /// Writes an empty list to `path`, replacing an earlier one: an output directory that cannot be
   /// written is noticed before the run. Throws OutputError with path and reason.
-  explicit PvdCollection(std::filesystem::path path) : path_(std::move(path)) { write(); }
+  explicit PvdCollection(std::filesystem::path path) : PvdCollection(std::move(path), Restored{}) {
+    write();
+  }
+
+  /// For a list that a checkpoint restores: an earlier one on disk is left alone until then.
+  struct Restored {};
+  PvdCollection(std::filesystem::path path, Restored) : path_(std::move(path)) {}
 
   /// Appends a file at physical time `time` [s] and rewrites the list. `relative_file` is relative
   /// to the directory of the list, with forward slashes. Several files of one time, such as gas
   /// and bodies, are told apart by `part`. Throws std::invalid_argument if the time
-  /// is not finite, OutputError with path and reason if writing fails.
+  /// is not finite, OutputError with path and reason if writing fails: the file is then not
+  /// listed.
   void add(double time, const std::string& relative_file, int part = 0) {
     if (!std::isfinite(time)) {
       throw std::invalid_argument("PvdCollection: the time of \"" + relative_file +
                                   "\" is not finite");
     }
+    const std::size_t before = entries_.size();
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, time).ptr;
     entries_ += "<DataSet timestep=\"" + std::string(digits, end) + "\" group=\"\" part=\"" +
                 std::to_string(part) + "\" file=\"" + detail::xml_escaped(relative_file) + "\"/>\n";
-    write();
+    try {
+      write();
+    } catch (...) {
+      entries_.resize(before);
+      throw;
+    }
   }
 
   /// Restored, the list on disk is what it was then.

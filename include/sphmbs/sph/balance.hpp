@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/core/expects.hpp>
 #include <sphmbs/sph/exchange.hpp>
@@ -46,14 +47,20 @@ class Balance {
   static constexpr int dim = Fluid::dim;  ///< dimension of space
 
   /// The start is now. @throws InvalidInput for limits that are not positive.
-  explicit Balance(Fluid& fluid, const BalanceLimits& limits = {})
-      : fluid_(fluid), limits_(limits), start_(now()) {
+  explicit Balance(Fluid& fluid, const BalanceLimits& limits = {}) : fluid_(fluid), start_(now()) {
+    limit(limits);
+  }
+
+  /// Sets other limits; the start stays. @throws InvalidInput for limits that are not positive.
+  void limit(const BalanceLimits& limits) {
     for (const Drift& limit : {limits.warn, limits.stop})
       for (const double share : {limit.mass, limit.momentum, limit.energy})
         expects(share > 0, "limit of a balance", share, "positive [-]");
+    limits_ = limits;
   }
 
-  /// What cannot be accounted for since the start.
+  /// What cannot be accounted for since the start: mass and energy are negative where some is
+  /// missing.
   Drift drift() const { return drift(now()); }
 
   /// Looks at the accounts. @throws BeyondModel beyond the limits that stop a run, and for a
@@ -73,6 +80,13 @@ class Balance {
 
   /// What went beyond the limits that warn, once for each quantity.
   const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// What a checkpoint keeps of it, see `Archive`: the start is that of the fluid it is built for.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("warned", warned_);
+    archive("warnings", warnings_);
+  }
 
  private:
   struct Accounts {
@@ -105,12 +119,13 @@ class Balance {
     };
     const double own = start_.totals.energy() + start_.totals.virtual_internal;
     const double moving = std::sqrt(2 * a.totals.mass * a.totals.energy());
-    return {.mass = std::abs(mass(a) - mass(start_)) / start_.totals.mass,
+    return {.mass = (mass(a) - mass(start_)) / start_.totals.mass,
             .momentum = std::sqrt(norm2(momentum(a) - momentum(start_))) / moving,
-            .energy = std::abs(energy(a) - energy(start_)) / own};
+            .energy = (energy(a) - energy(start_)) / own};
   }
 
-  void judge(const std::string& what, double share, double warn, double stop) {
+  void judge(const std::string& what, double drift, double warn, double stop) {
+    const double share = std::abs(drift);
     const std::string text = said(share) + " of it cannot be accounted for";
     if (!(share <= stop)) fail(what, text + ", at most " + said(stop) + " may be");
     if (share <= warn || !warned_.insert(what).second) return;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What gas and bodies do together when something goes wrong.
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "support/ball_in_gas.hpp"
@@ -10,6 +12,7 @@
 #include "support/errors.hpp"
 
 #include <sphmbs/coupling/leaks.hpp>
+#include <sphmbs/io/checkpoints.hpp>
 
 namespace {
 
@@ -171,6 +174,20 @@ TEST_CASE("gas that gets into a body is counted and named, or stops the run", "[
     if (sphmbs::particles::is_virtual(fields.set[j]) && std::abs(fields.r[0][j] - 2) < 0.15 &&
         fields.r[1][j] > 2.25)
       for (int k = 0; k < 2; ++k) fields.r[k][i] = fields.r[k][j];
+  // One that goes on from a checkpoint knows where the gas was.
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("sphmbs_leaks_" + std::to_string(std::random_device{}()));
+  const auto saved = sphmbs::io::Checkpoints(folder).write(
+      1, {}, [&](sphmbs::io::StateWriter& archive) { archive("leaks", leaks); });
+  coupling::Leaks late(ball.system), resumed(ball.system);
+  sphmbs::io::CheckpointFile file(saved);
+  sphmbs::io::StateReader archive(file);
+  archive("leaks", resumed);
+  std::filesystem::remove_all(folder);
+  late.look();
+  resumed.look();
+  CHECK(late.crossed().empty());
+  CHECK(resumed.crossed() == std::vector<std::uint32_t>{fields.id[i]});
   leaks.look();
   leaks.look();
   CHECK(leaks.crossed() == std::vector<std::uint32_t>{fields.id[i]});

@@ -15,6 +15,7 @@
 
 #include "support/ball_in_gas.hpp"
 #include "support/catch.hpp"
+#include "support/coupled_session.hpp"
 #include "support/mechanisms.hpp"
 #include "support/rates.hpp"
 

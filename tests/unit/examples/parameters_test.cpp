@@ -446,6 +446,43 @@ TEST_CASE("a run writes what it used and keeps others out of its directory") {
   CHECK(fs::exists(out / "used.toml"));
 }
 
+TEST_CASE("all conditions that do not hold are told of at once, each where it was given") {
+  Run run;
+  const std::string file = run.file("[wedge]\ncorner = [0.5, 3]\n\n[run]\nuntil = 3\n");
+  run.with({file, "--spacing", "0.25"}, [](const Settings& settings) {
+    require_all({{settings.spacing > 1, "--spacing", settings.spacing, "above 1 m"},
+                 {true, "gas.gamma", 1.4, "anything"},
+                 {settings.until < 2, "run.until", settings.until, "below 2 s"},
+                 {settings.until < 2, "run.until", settings.until, "below 2 s"}});
+  });
+  CHECK(run.code == 2);
+  CHECK(run.err == file + ":5:9: error E023 run.until = 3: must be below 2 s\n" +
+                       "command line: error E023 --spacing 0.25: must be above 1 m\n"
+                       "2 errors; nothing was written\n");
+  run.with({}, [](const Settings&) { require_all({{true, "gas.gamma", 1.4, "anything"}}); });
+  CHECK(run.code == 0);
+}
+
+TEST_CASE("what is in a file that a parameter names belongs to a run") {
+  const Run scratch;
+  const fs::path path = scratch.scratch / "shape.txt";
+  const auto content = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    Run run;
+    std::string file = path.string();
+    run.line.add_path("shape.file", file, "of a shape");
+    std::string found;
+    run.with({"--output", (scratch.scratch / "out").string()},
+             [&](const Settings& settings) { found = settings.contents.at("shape.file"); });
+    return found;
+  };
+  const std::string first = content("0 0\n1 0\n");
+  CHECK_THAT(first, Catch::Matchers::Contains("8 bytes"));
+  CHECK(content("0 0\n1 0\n") == first);
+  CHECK(content("0 0\n1 1\n") != first);
+  CHECK(content(std::string(200000, ' ')) != content(std::string(200000, '\n')));
+}
+
 TEST_CASE("what a run leaves that was killed is taken over") {
   Run run;
   const fs::path out = run.scratch / "out";

@@ -45,6 +45,7 @@ Summary example() {
           .pair_interactions = 1'000'000'000,
           .peak_memory_bytes = 9'437'184,
           .conservation = {.mass = 0.0, .momentum = 3e-13, .energy = 2e-6},
+          .incidents = {.retries = 2},
           .results = {{"drag", 1.25, 1.2, "N/m"}, {"lift", 0.1}}};
 }
 
@@ -58,10 +59,10 @@ TEST_CASE("the summary has exactly the agreed keys and values") {
 
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
-  CHECK(keys == std::vector<std::string>{"case", "version", "backend", "threads", "particles",
-                                         "steps", "time_end", "wall_seconds", "phases",
-                                         "pair_interactions", "pair_interactions_per_second",
-                                         "peak_memory_bytes", "conservation", "results"});
+  CHECK(keys == std::vector<std::string>{
+                    "case", "version", "backend", "threads", "particles", "steps", "time_end",
+                    "wall_seconds", "phases", "pair_interactions", "pair_interactions_per_second",
+                    "peak_memory_bytes", "conservation", "incidents", "results"});
   CHECK(json["case"] == "gas_cylinder");
   CHECK(json["version"] == std::string(version));
   CHECK(json["particles"].dump() == R"({"gas":18681,"virtual":640})");
@@ -69,6 +70,8 @@ TEST_CASE("the summary has exactly the agreed keys and values") {
   CHECK(json["pair_interactions"] == 1'000'000'000);
   CHECK(json["pair_interactions_per_second"] == 8e7);
   CHECK(json["conservation"].dump() == R"({"mass":0.0,"momentum":3e-13,"energy":2e-06})");
+  CHECK(json["incidents"].dump() ==
+        R"({"particles_lost":0,"steps_retried":2,"reconstructions_refused":0})");
   CHECK(json["results"].dump() == R"({"drag":{"value":1.25,"reference":1.2,"unit":"N/m"},)"
                                   R"("lift":{"value":0.1,"reference":null,"unit":"-"}})");
   CHECK_FALSE(fs::exists(scratch.path / "summary.json.tmp"));

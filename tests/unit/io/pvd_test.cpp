@@ -98,3 +98,22 @@ TEST_CASE("files of one time in a pvd list are told apart by their parts", "[io]
   CHECK(text.find("part=\"0\" file=\"fields_0001.vtp\"") != std::string::npos);
   CHECK(text.find("part=\"1\" file=\"bodies_0001.vtp\"") != std::string::npos);
 }
+
+TEST_CASE("a list that a checkpoint will restore leaves the earlier one alone until then", "[io]") {
+  const Directory directory;
+  const std::filesystem::path path = directory.path / "run.pvd";
+  sphmbs::io::PvdCollection(path).add(1, "a.vtp");
+  sphmbs::io::PvdCollection again(path, sphmbs::io::PvdCollection::Restored{});
+  CHECK(entries(path) == Entries{{1, "a.vtp"}});
+}
+
+TEST_CASE("a file that could not be listed is not listed later", "[io]") {
+  const Directory directory;
+  const std::filesystem::path path = directory.path / "run.pvd";
+  sphmbs::io::PvdCollection collection(path);
+  std::filesystem::create_directory(directory.path / "run.pvd.tmp");  // where the list is written
+  CHECK_THROWS_AS(collection.add(1, "a.vtp"), sphmbs::OutputError);
+  std::filesystem::remove(directory.path / "run.pvd.tmp");
+  collection.add(2, "b.vtp");
+  CHECK(entries(path) == Entries{{2, "b.vtp"}});
+}

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -100,6 +101,59 @@ TEST_CASE("a folder for checkpoints that goes away is told of, and ends the run 
   INFO(ended.log);
   CHECK(ended.code == 5);
   CHECK_THAT(ended.log, Catch::Contains((folder / "checkpoint").string()));
+}
+
+TEST_CASE("a failed output of fields is a warning, the third in a row ends the run", "[fault]") {
+  const test::Scratch scratch;
+  const int blocked = GENERATE(1, 2, 3);
+  CAPTURE(blocked);
+  const fs::path folder = scratch.work() / "run";
+  // Folders in place of files that are to be written.
+  for (int k = 1; k <= blocked; ++k)
+    fs::create_directories(folder / ("bodies_000" + std::to_string(k) + ".vtp") / "full");
+  const Ended ended = run(scratch, {"--output", folder.string(), "--overwrite"});
+  INFO(ended.log);
+  CHECK(ended.code == (blocked < 3 ? 0 : 5));
+  CHECK_THAT(ended.log, Catch::Contains("warning: fields not written: W500") &&
+                            Catch::Contains("bodies_0001.vtp"));
+  const std::string list = test::text_of(folder / "scene.pvd");
+  CHECK(list.find("bodies_0000.vtp") != std::string::npos);
+  CHECK(list.find("bodies_0001.vtp") == std::string::npos);
+  CHECK((list.find("bodies_0003.vtp") != std::string::npos) == (blocked < 3));
+  if (blocked < 3)
+    CHECK_THAT(
+        ended.log,
+        Catch::Contains("warning   fields not written: " + std::to_string(blocked) + " time"));
+}
+
+TEST_CASE("tables are handed to the disk before the checkpoint that goes on from them", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  using Call = std::pair<const char*, const char*>;  // what comes first, but for renaming
+  for (const auto& [file, call] : {Call{"history.csv", "1"}, Call{"fields_0000.vtp", "2"}}) {
+    fs::remove_all(folder);
+    const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+                            {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                             {"FAIL_IN", (folder / file).string()},
+                                             {"FAIL_AT", call},
+                                             {"FAIL_WITH", std::to_string(EIO)}}});
+    CAPTURE(file);
+    INFO(ended.log);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.log, Catch::Contains("warning: checkpoint not written") &&
+                              Catch::Contains("cannot hand to the disk") && Catch::Contains(file));
+  }
+}
+
+TEST_CASE("a directory that cannot be locked is told of, and the run goes on", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  const Ended ended = run(scratch, {"--output", folder.string()},
+                          {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                           {"FAIL_FLOCK", std::to_string(ENOLCK)}}});
+  INFO(ended.log);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.log, Catch::Contains("warning: no lock: W033"));
 }
 
 TEST_CASE("a damaged checkpoint gives way to the one before, which is said", "[fault]") {

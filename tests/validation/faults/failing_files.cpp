@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Preloaded into a program, makes the n-th call of write, fsync, close or rename on files below the
 // folder FAIL_IN fail: n is FAIL_AT, the error FAIL_WITH, where 0 means half of what was to be
-// written.
+// written. Locks fail with the error FAIL_FLOCK, where that is given.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
 #include <dlfcn.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -69,6 +70,13 @@ int close(int file) {
   const bool fail = error_number() != 0 && is_below(file) && fails();
   const int result = real(close, "close")(file);
   return fail ? failed() : result;
+}
+
+int flock(int file, int operation) noexcept {
+  const char* with = std::getenv("FAIL_FLOCK");
+  if (with == nullptr) return real(flock, "flock")(file, operation);
+  errno = std::atoi(with);
+  return -1;
 }
 
 int rename(const char* from, const char* to) noexcept {

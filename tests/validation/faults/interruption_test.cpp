@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include "support/catch.hpp"
 #include "support/process.hpp"
 #include "support/program.hpp"
@@ -141,4 +143,47 @@ TEST_CASE("a file named stop and the time on the clock end a run with a checkpoi
   CHECK_THAT(runs.log(), Catch::Contains("stopped   by the file stop") &&
                              Catch::Contains("stopped   by the wall time of 0.001 s"));
   runs.finish();
+}
+
+TEST_CASE("a fixed step that is divided is ended before a run stops", "[fault]") {
+  Runs runs;
+  const Words long_steps{"--step", "2e-3"};  // of several parts
+  test::Process straight = runs.start(long_steps);
+  REQUIRE(straight.wait() == 0);
+  fs::rename(runs.folder(), runs.folder().string() + "_long");
+  for (const int wait : {0, 30, 100}) {
+    runs.clear();
+    test::Process process = runs.start(long_steps);
+    REQUIRE(test::wait_until([&] { return runs.begun(); }));
+    sleep(1e-3 * wait);
+    process.signal(SIGTERM);
+    CHECK(process.wait() == 128 + SIGTERM);
+    CHECK_THAT(runs.log(), Catch::Contains("go on with --resume"));
+    test::Process last = runs.start({"--step", "2e-3", "--resume"});
+    const int code = last.wait();
+    INFO(runs.log());
+    CHECK(code == 0);
+    CHECK(test::differences(runs.folder().string() + "_long", runs.folder()) == "");
+  }
+}
+
+TEST_CASE("asked to end before its first step, a run ends at once and leaves nothing", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run", log = scratch.path() / "log";
+  const fs::path slow = scratch.work() / "slow.toml";  // a parameter file that nobody writes
+  REQUIRE(::mkfifo(slow.c_str(), 0600) == 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    fs::remove(log);
+    test::Process process(program, {slow.string(), "--output", folder.string()}, log);
+    int end = -1;
+    REQUIRE(test::wait_until([&] {
+      end = ::open(slow.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+      return end >= 0;
+    }));
+    process.signal(signal);
+    CHECK(process.wait() == 128 + signal);
+    ::close(end);
+    CHECK_THAT(test::text_of(log), Catch::Contains("stopped   before the first step"));
+    CHECK_FALSE(fs::exists(folder));
+  }
 }

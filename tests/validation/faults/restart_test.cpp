@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every example program that is stopped and goes on leaves byte for byte the files of one that is
 // not: fields, bodies, tables, lists and pictures.
+#include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -39,13 +41,17 @@ class Run {
     return test::differences(scratch_.work() / "straight", scratch_.work() / folder);
   }
 
-  void start(const std::string& folder, const Words& more, int code) {
+  std::filesystem::path folder(const std::string& name) const { return scratch_.work() / name; }
+
+  /// @return what it printed
+  std::string start(const std::string& folder, const Words& more, int code) {
     Words words = case_.options;
     words.insert(words.end(), {"--output", folder});
     words.insert(words.end(), more.begin(), more.end());
     const test::Ended ended = test::start(scratch_, case_.path, words);
     INFO(ended.out + ended.err);
     REQUIRE(ended.code == code);
+    return ended.out + ended.err;
   }
 
  private:
@@ -118,4 +124,41 @@ TEST_CASE("a run may go on to a later end, but not as another one", "[restart][f
   run.start("a", {"--spacing", "0.01", "--until", "0.1", "--steps", "10"}, 0);
   run.start("a", {"--spacing", "0.01", "--until", "0.2", "--resume"}, 0);
   run.start("a", {"--spacing", "0.02", "--until", "0.2", "--resume"}, 4);
+}
+
+TEST_CASE("the loads of bodies go on in the same table", "[restart][fault]") {
+  Run run({SPHMBS_SLIDER_CRANK, {"--until", "0.1"}});
+  run.straight();
+  run.in_parts("parts", {1, 7, 20});
+  for (const char* folder : {"straight", "parts"}) {
+    CAPTURE(folder);
+    const test::Table table = test::table_of(run.folder(folder) / "history.csv");
+    REQUIRE(table.rows.size() > 10);
+    const auto column = [&](const std::string& name) { return table.column(name + "[N]"); };
+    for (const char* axis : {"x", "y"}) {
+      const auto on = [&](const std::string& what) { return column(what + "_" + axis); };
+      const auto all = on("constraint_force_rod"), total = on("total_force_rod");
+      const auto A = on("joint_force_revolute_A_on_rod"), B = on("joint_force_revolute_B_on_rod");
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        CHECK(all[k] == Approx(A[k] + B[k]).margin(1e-9));
+        CHECK(all[k] == Approx(total[k]).margin(1e-5));  // no weight
+      }
+    }
+  }
+  CHECK(run.differences("parts") == "");
+}
+
+TEST_CASE("a run does not go on with another shape in the same file", "[restart][fault]") {
+  Run run({SPHMBS_SHAPE_IN_FLOW, {"--spacing", "0.1", "--until", "0.1"}});
+  const auto shape = run.folder("shape.txt");
+  const Words from_file{"--shape", shape.string(), "--steps", "3"};
+  std::ofstream(shape) << "0 0\n110 -25\n110 25\n0 0\n";
+  run.start("a", from_file, 0);
+  std::ofstream(shape) << "0 0\n110 -26\n110 26\n0 0\n";
+  const Words again{"--shape", shape.string(), "--steps", "6", "--resume"};
+  CHECK_THAT(run.start("a", again, 4), Catch::Contains("error E406") &&
+                                           Catch::Contains("content of shape.file was ") &&
+                                           Catch::Contains(" and is "));
+  std::ofstream(shape) << "0 0\n110 -25\n110 25\n0 0\n";
+  run.start("a", again, 0);
 }

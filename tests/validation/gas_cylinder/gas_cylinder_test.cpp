@@ -74,10 +74,10 @@ TEST_CASE("gas_cylinder at 0.5 m leaves summary, history, fields and pictures", 
   const Json summary = test::summary_of(run);
   print("0.5", summary);
 
-  CHECK(test::keys_of(summary) == Words{"case", "version", "backend", "threads", "particles",
-                                        "steps", "time_end", "wall_seconds", "phases",
-                                        "pair_interactions", "pair_interactions_per_second",
-                                        "peak_memory_bytes", "conservation", "results"});
+  CHECK(test::keys_of(summary) ==
+        Words{"case", "version", "backend", "threads", "particles", "steps", "time_end",
+              "wall_seconds", "phases", "pair_interactions", "pair_interactions_per_second",
+              "peak_memory_bytes", "conservation", "incidents", "results"});
   CHECK(test::keys_of(summary["particles"]) == Words{"gas", "virtual"});
   CHECK(test::keys_of(summary["conservation"]) == Words{"mass", "momentum", "energy"});
   CHECK(summary["case"] == "gas_cylinder");

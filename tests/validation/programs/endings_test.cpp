@@ -116,6 +116,20 @@ TEST_CASE("results do not depend on back end and threads", "[programs]") {
   }
 }
 
+TEST_CASE("a probe with an interval longer than the run is told of", "[programs]") {
+  const test::Scratch scratch;
+  std::ofstream(scratch.work() / "case.toml")
+      << "[[probes]]\nname = \"seldom\"\nat = [-0.5]\ninterval = 0.5\n"
+         "[[probes]]\nname = \"often\"\nat = [-0.5]\ninterval = 0.1\n";
+  const auto ended =
+      test::start(scratch, SPHMBS_LAGRANGE_GUN,
+                  {"case.toml", "--spacing", "0.02", "--until", "0.2", "--output", "run"});
+  CAPTURE(ended.err);
+  CHECK(ended.code == 0);
+  CHECK_THAT(ended.err, Catch::Contains("W031") && Catch::Contains("seldom"));
+  CHECK(ended.err.find("often") == std::string::npos);
+}
+
 TEST_CASE("overwriting replaces a run and leaves other files alone", "[programs]") {
   const test::Scratch scratch;
   const Words words{"--spacing", "0.025", "--until", "0.01", "--threads", "1", "--quiet"};
