@@ -98,23 +98,18 @@ Strain<4, S> bending_strain(const Vector<4, S>& g, double /*smoothing*/) {
 template <class Measure>
 Matrix<4, 4> bending_strain_hessian(const Vector<4>& g, double /*smoothing*/) {
   constexpr double half = 0.5 * Measure::curvature_power;
-  const double r1[] = {g[0], g[1]}, turned[] = {g[3], -g[2]}, normal[] = {-g[1], g[0]};
-  const double a = r1[0] * r1[0] + r1[1] * r1[1];
-  const double cross = r1[0] * turned[0] + r1[1] * turned[1];
+  const Vector<2> r1 = g.head<2>(), turned(g[3], -g[2]), normal(-g[1], g[0]);
+  const double a = r1.squaredNorm(), cross = r1.dot(turned);
   const double f = Measure::curvature_power == 2 ? 1 / a : 1 / (a * std::sqrt(a));
   const double fa = -2 * half * f / a, faa = 4 * half * (half + 1) * f / (a * a);
   Matrix<4, 4> h = Matrix<4, 4>::Zero();
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      h(i, j) = fa * (turned[i] * r1[j] + r1[i] * turned[j]) + cross * faa * r1[i] * r1[j];
-      h(i, 2 + j) = fa * r1[i] * normal[j];
-    }
-    h(j, j) += cross * fa;
-  }
+  h.topLeftCorner<2, 2>() =
+      fa * (turned * r1.transpose() + r1 * turned.transpose()) + cross * faa * r1 * r1.transpose();
+  h.topLeftCorner<2, 2>().diagonal().array() += cross * fa;
+  h.topRightCorner<2, 2>() = fa * r1 * normal.transpose();
   h(0, 3) += f;
   h(1, 2) -= f;
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) h(2 + j, i) = h(i, 2 + j);
+  h.bottomLeftCorner<2, 2>() = h.topRightCorner<2, 2>().transpose();
   return h;
 }
 
