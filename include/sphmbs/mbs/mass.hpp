@@ -29,7 +29,7 @@ Mass<Structure::dim> assemble_mass(const Structure& structure) {
         const Index own = placed.index();
         for (int j = 0; j < P::dofs; ++j) {
           const int column = own[static_cast<std::size_t>(j)];
-          mass.translation.row(column) = T.row(j);
+          for (int k = 0; k < P::dim; ++k) mass.translation(column, k) = T(j, k);
           for (int i = 0; i < P::dofs; ++i)
             if (M(i, j) != 0)
               entries.emplace_back(own[static_cast<std::size_t>(i)], column, M(i, j));

@@ -18,6 +18,33 @@ struct Modes {
   double frequency(int k) const { return std::sqrt(std::max(0.0, squares[k])); }
 };
 
+namespace detail {
+
+/// Of K x = omega^2 M x where B x = 0. A template, so that programs without modes do not compile
+/// it.
+template <class Dense>
+Modes constrained_modes(const Dense& K, const SparseMatrix& M, const Dense& B) {
+  const auto n = K.rows();
+  Dense Z = Dense::Identity(n, n);
+  if (B.rows() > 0) {
+    Dense Bt = B.transpose();
+    Bt.colwise().normalize();
+    Eigen::ColPivHouseholderQR<Dense> qr;
+    qr.setThreshold(1e-9);
+    qr.compute(Bt);
+    const Dense Q = qr.householderQ();
+    Z = Q.rightCols(n - qr.rank());
+  }
+  const Dense Kz = Z.transpose() * (0.5 * (K + K.transpose())) * Z;
+  const Dense Mz = Z.transpose() * (M * Z);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Dense> solver(Kz, Mz);
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
+    throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.", "E337");
+  return {solver.eigenvalues(), Z * solver.eigenvectors()};
+}
+
+}  // namespace detail
+
 /// Eigenfrequencies of eq. (25) linearised about a state at rest, on the motions that conditions
 /// leave: Z^T (K + d(Phi_q^T lambda)/dq) Z x = omega^2 Z^T M Z x with Phi_q Z = 0. Damping does not
 /// enter; of an unsymmetric stiffness the symmetric half is taken. Dense: memory grows with the
@@ -41,22 +68,7 @@ Modes eigenmodes(Structure& structure, const State& state) {
   SparseMatrix A;
   equations.matrix(weights, A);
   const MatrixXd K = MatrixXd(A).topLeftCorner(n, n);
-  MatrixXd Z = MatrixXd::Identity(n, n);
-  if (equations.conditions() > 0) {
-    MatrixXd Bt = MatrixXd(equations.jacobian()).transpose();
-    Bt.colwise().normalize();
-    Eigen::ColPivHouseholderQR<MatrixXd> qr;
-    qr.setThreshold(1e-9);
-    qr.compute(Bt);
-    const MatrixXd Q = qr.householderQ();
-    Z = Q.rightCols(n - qr.rank());
-  }
-  const MatrixXd Kz = Z.transpose() * (0.5 * (K + K.transpose())) * Z;
-  const MatrixXd Mz = Z.transpose() * (equations.mass() * Z);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(Kz, Mz);
-  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite())
-    throw NumericalFailure("Eigenmodes: a motion that the conditions leave has no mass.", "E337");
-  return {solver.eigenvalues(), Z * solver.eigenvectors()};
+  return detail::constrained_modes<MatrixXd>(K, equations.mass(), equations.jacobian());
 }
 
 /// The same about the coordinates at t = 0 of a structure that is free of stress there.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sphmbs/core/expects.hpp>
@@ -16,6 +19,38 @@ struct Node {
   int offset;  ///< of its first coordinate among those of the structure
   int size;    ///< number of its coordinates
 };
+
+namespace detail {
+
+/// Of the matrix N, which gives the place from the coordinates `own` of a part. Coordinates that do
+/// not move the marker are left out: those of the other nodes, at a node.
+/// @throws InvalidInput for a point that is not finite.
+template <int Dim>
+Marker<Dim> marker(const double* N, const Index& own, std::string_view label, int number) {
+  constexpr double nothing = 1e-14;
+  const auto largest = [](const double* begin, std::size_t n) {
+    double most = 0;
+    for (std::size_t k = 0; k < n; ++k) most = std::max(most, std::abs(begin[k]));
+    return most;
+  };
+  const std::size_t numbers = Dim * own.size();
+  expects(std::all_of(N, N + numbers, [](double x) { return std::isfinite(x); }),
+          std::string(label) + " " + std::to_string(number) + ": a material point", "not finite",
+          "finite [m]");
+  const double size = largest(N, numbers);
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (largest(N + Dim * k, Dim) > nothing * size) kept.push_back(k);
+  Marker<Dim> m;
+  m.N.resize(Dim, static_cast<int>(kept.size()));
+  for (const std::size_t k : kept) {
+    std::copy_n(N + Dim * k, Dim, m.N.data() + Dim * m.index.size());
+    m.index.push_back(own[k]);
+  }
+  return m;
+}
+
+}  // namespace detail
 
 /// A part in its place in a structure: which coordinates are its own. It gives the markers that
 /// joints, loads and sensors are made of.
@@ -37,9 +72,9 @@ struct Placed {
   /// Own coordinates, out of all coordinates q of the structure.
   Vector<P::dofs> local(VectorIn q) const {
     Vector<P::dofs> own;
-    for (int i = 0; i < P::nodes; ++i)
-      own.template segment<P::node_dofs>(i * P::node_dofs) =
-          q.segment<P::node_dofs>(nodes[static_cast<std::size_t>(i)].offset);
+    int k = 0;
+    for (const Node& node : nodes)
+      for (int i = 0; i < P::node_dofs; ++i) own[k++] = q[node.offset + i];
     return own;
   }
 
@@ -73,21 +108,8 @@ struct Placed {
   { return point(part.end()); }
 
  private:
-  // Coordinates that do not move the marker are left out: those of the other nodes, at a node.
-  /// @throws InvalidInput for a point that is not finite.
   Marker<P::dim> marker(const Matrix<P::dim, P::dofs>& N) const {
-    constexpr double nothing = 1e-14;
-    expects(N.allFinite(),
-            std::string(P::label) + " " + std::to_string(number) + ": a material point",
-            "not finite", "finite [m]");
-    const double size = N.cwiseAbs().maxCoeff();
-    const Index own = index();
-    std::vector<int> kept;
-    for (int k = 0; k < P::dofs; ++k)
-      if (N.col(k).cwiseAbs().maxCoeff() > nothing * size) kept.push_back(k);
-    Marker<P::dim> m{.N = N(Eigen::all, kept)};
-    for (const int k : kept) m.index.push_back(own[static_cast<std::size_t>(k)]);
-    return m;
+    return detail::marker<P::dim>(N.data(), index(), P::label, number);
   }
 };
 

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 
 #include <sphmbs/mbs/sparse_pattern.hpp>
@@ -14,63 +15,98 @@ namespace sphmbs::mbs {
 
 namespace detail {
 
-/// Dependent columns of a dense matrix by QR with pivoting; columns of `first` are taken as
+/// Dependent columns of a dense matrix: in turns the longest is taken, and those left are made
+/// orthogonal to it, until none is longer than `nothing`. Columns of `first` are taken as
 /// independent where there is a choice.
-inline std::vector<int> dependent_by_qr(MatrixXd columns, const std::vector<unsigned char>& first,
-                                        double nothing) {
-  constexpr double ahead = 1e3;  // longer columns are pivoted to the front
-  for (int j = 0; j < columns.cols(); ++j)
+inline std::vector<int> dependent_by_length(MatrixXd columns,
+                                            const std::vector<unsigned char>& first,
+                                            double nothing) {
+  // Eigen's QR with pivoting does the same, and costs programs four seconds to compile.
+  constexpr double ahead = 1e3;  // longer columns are taken first
+  const auto n = static_cast<int>(columns.cols());
+  std::vector<int> left(static_cast<std::size_t>(n));
+  std::iota(left.begin(), left.end(), 0);
+  VectorXd length(n);
+  for (int j = 0; j < n; ++j) {
     if (first[static_cast<std::size_t>(j)] != 0) columns.col(j) *= ahead;
-  const double longest = columns.colwise().norm().maxCoeff();
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  qr.setThreshold(longest > 0 ? nothing / longest : 1);
-  qr.compute(columns);
-  std::vector<int> dependent;
-  for (int k = static_cast<int>(qr.rank()); k < columns.cols(); ++k)
-    dependent.push_back(qr.colsPermutation().indices()[k]);
-  return dependent;
+    length[j] = columns.col(j).norm();
+  }
+  for (auto begin = left.begin(); begin != left.end(); begin = left.erase(begin)) {
+    const auto shorter = [&](int a, int b) { return length[a] < length[b]; };
+    std::iter_swap(begin, std::max_element(begin, left.end(), shorter));
+    if (length[*begin] <= nothing) break;
+    const VectorXd unit = columns.col(*begin) / length[*begin];
+    for (auto other = begin + 1; other != left.end(); ++other) {
+      columns.col(*other) -= unit.dot(columns.col(*other)) * unit;
+      length[*other] = columns.col(*other).norm();
+    }
+  }
+  return left;
 }
 
-/// Columns of `first` in their order, then the others such that elimination fills in little.
-inline Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> elimination_order(
-    const SparseMatrix& gram, const std::vector<unsigned char>& first) {
-  using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+/// Columns of `first` in their order, then the others such that elimination fills in little: which
+/// column is at each place.
+inline std::vector<int> elimination_order(const SparseMatrix& gram,
+                                          const std::vector<unsigned char>& first) {
   const auto n = static_cast<int>(gram.cols());
-  Permutation split(n);
-  int place = 0;
-  for (const bool wanted : {true, false})
-    for (int j = 0; j < n; ++j)
-      if ((first[static_cast<std::size_t>(j)] != 0) == wanted) split.indices()[j] = place++;
-  const auto head = static_cast<int>(
-      std::count_if(first.begin(), first.end(), [](unsigned char f) { return f != 0; }));
-  const SparseMatrix sorted = split * gram * split.transpose();
-  const SparseMatrix tail_rows = SparseMatrix(sorted.rightCols(n - head)).transpose();
-  const SparseMatrix to_head = tail_rows.leftCols(head);
-  const SparseMatrix left = SparseMatrix(tail_rows.rightCols(n - head)) +
-                            SparseMatrix(to_head * SparseMatrix(to_head.transpose()));
-  Permutation tail;
-  Eigen::AMDOrdering<int>()(left.selfadjointView<Eigen::Lower>(), tail);
-  Permutation order(n);
-  // AMDOrdering gives the column at each place, products with Permutation need the reverse.
-  const Permutation where = tail.inverse();
+  const auto wanted = [&](int j) { return first[static_cast<std::size_t>(j)] != 0; };
+  std::vector<int> order(static_cast<std::size_t>(n)), place(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  const auto head = std::stable_partition(order.begin(), order.end(), wanted) - order.begin();
+  for (std::size_t k = 0; k < order.size(); ++k)
+    place[static_cast<std::size_t>(order[k])] = static_cast<int>(k) - static_cast<int>(head);
+
+  // Which of the others meet, by themselves or once those of `first` are eliminated.
+  std::vector<Eigen::Triplet<double>> meetings;
   for (int j = 0; j < n; ++j) {
-    const int at = split.indices()[j];
-    order.indices()[j] = at < head ? at : head + where.indices()[at - head];
+    std::vector<int> others;
+    for (SparseMatrix::InnerIterator e(gram, j); e; ++e)
+      if (const auto i = static_cast<int>(e.row()); !wanted(i))
+        others.push_back(place[static_cast<std::size_t>(i)]);
+    const int own = place[static_cast<std::size_t>(j)];
+    for (const int a : others)
+      if (!wanted(j))
+        meetings.emplace_back(a, own, 1.0);
+      else
+        for (const int b : others) meetings.emplace_back(a, b, 1.0);
   }
+  SparseMatrix graph(n - head, n - head);
+  graph.setFromTriplets(meetings.begin(), meetings.end());
+  Eigen::AMDOrdering<int>::PermutationType little;
+  Eigen::AMDOrdering<int>()(graph, little);
+  const std::vector<int> others(order.begin() + head, order.end());
+  for (std::size_t k = 0; k < others.size(); ++k)
+    order[static_cast<std::size_t>(head) + k] =
+        others[static_cast<std::size_t>(little.indices()[static_cast<int>(k)])];
   return order;
 }
 
-/// As dependent_by_qr, of unit columns, by the pivots of their Gram matrix: squares of lengths that
-/// columns before do not explain. Columns with small pivots are then compared with all others by
-/// least squares. Cost grows with the number of columns where each shares rows with few others.
+inline SparseMatrix columns_in_order(const SparseMatrix& columns, const std::vector<int>& order) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (SparseMatrix::InnerIterator e(columns, order[k]); e; ++e)
+      entries.emplace_back(static_cast<int>(e.row()), static_cast<int>(k), e.value());
+  SparseMatrix ordered(columns.rows(), columns.cols());
+  ordered.setFromTriplets(entries.begin(), entries.end());
+  return ordered;
+}
+
+inline SparseMatrix gram_matrix(const SparseMatrix& columns) {
+  const SparseMatrix rows = columns.transpose();
+  return rows * columns;
+}
+
+/// As dependent_by_length, of unit columns, by the pivots of their Gram matrix: squares of lengths
+/// that columns before do not explain. Columns with small pivots are then compared with all others
+/// by least squares. Cost grows with the number of columns where each shares rows with few others.
 inline std::vector<int> dependent_by_pivots(SparseMatrix columns,
                                             const std::vector<unsigned char>& first,
                                             double nothing) {
   constexpr double small = 1e-6;  // pivot of a column to look at: smaller ones may be rounding
   constexpr double lift = 1e-15;  // pivots of dependent columns are not exactly zero
-  const auto order = elimination_order(SparseMatrix(columns.transpose() * columns), first);
-  columns = SparseMatrix(columns * order.transpose());
-  SparseMatrix gram = columns.transpose() * columns;
+  const std::vector<int> order = elimination_order(gram_matrix(columns), first);
+  columns = columns_in_order(columns, order);
+  SparseMatrix gram = gram_matrix(columns);
   for (int j = 0; j < gram.cols(); ++j) gram.coeffRef(j, j) += lift;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt;
   ldlt.analyzePattern(gram);
@@ -91,14 +127,18 @@ inline std::vector<int> dependent_by_pivots(SparseMatrix columns,
   }
 
   SparseMatrix kept = columns;
-  for (const int j : candidates) kept.col(j) *= 0;
+  for (const int j : candidates)
+    for (SparseMatrix::InnerIterator e(kept, j); e; ++e) e.valueRef() = 0;
   std::vector<int> dependent, doubtful;
   std::vector<VectorXd> unexplained;
   for (const int j : candidates) {
     constexpr int refinements = 4;
-    VectorXd rest = columns.col(j);
-    for (int k = 0; k < refinements && rest.norm() > nothing; ++k)
-      rest -= kept * ldlt.solve(kept.transpose() * rest);
+    VectorXd rest = VectorXd::Zero(columns.rows());
+    for (SparseMatrix::InnerIterator e(columns, j); e; ++e) rest[e.row()] = e.value();
+    for (int k = 0; k < refinements && rest.norm() > nothing; ++k) {
+      const VectorXd shares = kept.transpose() * rest, explained = ldlt.solve(shares);
+      rest -= kept * explained;
+    }
     if (rest.norm() <= nothing) {
       dependent.push_back(j);
     } else {
@@ -110,11 +150,11 @@ inline std::vector<int> dependent_by_pivots(SparseMatrix columns,
     MatrixXd rest(columns.rows(), static_cast<int>(doubtful.size()));
     for (std::size_t k = 0; k < doubtful.size(); ++k)
       rest.col(static_cast<int>(k)) = unexplained[k];
-    for (const int k : dependent_by_qr(rest, std::vector<unsigned char>(doubtful.size()), nothing))
+    const std::vector<unsigned char> none(doubtful.size());
+    for (const int k : dependent_by_length(rest, none, nothing))
       dependent.push_back(doubtful[static_cast<std::size_t>(k)]);
   }
-  const auto original = order.inverse().eval();
-  for (int& j : dependent) j = original.indices()[j];
+  for (int& j : dependent) j = order[static_cast<std::size_t>(j)];
   return dependent;
 }
 
@@ -133,11 +173,14 @@ inline std::vector<int> redundant_rows(const SparseMatrix& phi_q,
   if (m == 0) return {};
   SparseMatrix columns = phi_q.transpose();
   for (int j = 0; j < m; ++j) {
-    const double length = columns.col(j).norm();
-    if (length > 0) columns.col(j) /= length;
+    double square = 0;
+    for (SparseMatrix::InnerIterator e(columns, j); e; ++e) square += e.value() * e.value();
+    if (square == 0) continue;
+    for (SparseMatrix::InnerIterator e(columns, j); e; ++e) e.valueRef() /= std::sqrt(square);
   }
-  std::vector<int> dependent = m <= few ? detail::dependent_by_qr(MatrixXd(columns), first, nothing)
-                                        : detail::dependent_by_pivots(columns, first, nothing);
+  std::vector<int> dependent = m <= few
+                                   ? detail::dependent_by_length(MatrixXd(columns), first, nothing)
+                                   : detail::dependent_by_pivots(columns, first, nothing);
   std::sort(dependent.begin(), dependent.end());
   return dependent;
 }

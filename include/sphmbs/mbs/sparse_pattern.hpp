@@ -55,9 +55,12 @@ class SparsePattern {
       outer.push_back(static_cast<int>(rows.size()));
       std::vector<Entry>().swap(column);
     }
-    std::vector<double> zeros(rows.size(), 0.0);
-    return Eigen::Map<const SparseMatrix>(size_, size_, static_cast<Eigen::Index>(rows.size()),
-                                          outer.data(), rows.data(), zeros.data());
+    SparseMatrix zeros(size_, size_);
+    zeros.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+    std::copy(outer.begin(), outer.end(), zeros.outerIndexPtr());
+    std::copy(rows.begin(), rows.end(), zeros.innerIndexPtr());
+    std::fill_n(zeros.valuePtr(), rows.size(), 0.0);
+    return zeros;
   }
 
   /// Sum of the sources of the stored entry k.

@@ -15,6 +15,10 @@
 using namespace sphmbs::mbs;
 using namespace sphmbs::mbs::ancf;
 
+// Not in the header: there every program with a planar cable would compile the spatial one too.
+static_assert(Element<Cable<2>> && Element<Cable<3>>);
+static_assert(Element<Cable<2, Engineering>> && Element<Cable<3, Engineering>>);
+
 namespace {
 
 constexpr double rounding = 1e-12;

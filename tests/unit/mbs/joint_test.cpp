@@ -24,6 +24,7 @@
 namespace {
 
 using namespace sphmbs::mbs;
+static_assert(LinearConstraint<joints::Joint<2>> && LinearConstraint<joints::Joint<3>>);
 using joints::Joint;
 using joints::TimeFunction;
 using ncf::PlanarBody;

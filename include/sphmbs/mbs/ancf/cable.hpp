@@ -74,11 +74,12 @@ struct Cable {
   /// M = mass_per_length * integral of N^T N dx, exact.
   Matrix<dofs, dofs> mass_matrix() const {
     const auto products = hermite_products(length);
-    Matrix<dofs, dofs> M;
+    Matrix<dofs, dofs> M = Matrix<dofs, dofs>::Zero();
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j)
-        M.template block<Dim, Dim>(Dim * static_cast<int>(i), Dim * static_cast<int>(j)) =
-            mass_per_length * products[i][j] * Matrix<Dim, Dim>::Identity();
+        for (int k = 0; k < Dim; ++k)
+          M(Dim * static_cast<int>(i) + k, Dim * static_cast<int>(j) + k) =
+              mass_per_length * products[i][j];
     return M;
   }
 
@@ -101,8 +102,7 @@ struct Cable {
   /// As `Part` asks.
   static Matrix<dofs, Dim> translation() {
     Matrix<dofs, Dim> T = Matrix<dofs, Dim>::Zero();
-    T.template topRows<Dim>().setIdentity();
-    T.template middleRows<Dim>(2 * Dim).setIdentity();
+    for (int k = 0; k < Dim; ++k) T(k, k) = T(2 * Dim + k, k) = 1;
     return T;
   }
 
@@ -230,7 +230,10 @@ struct Cable {
       const auto first = hermite<1>(rule.point[i], length);
       const auto second = hermite<2>(rule.point[i], length);
       Matrix<2, 4> C;
-      C << Matrix<1, 4>(first.data()), Matrix<1, 4>(second.data());
+      for (std::size_t k = 0; k < 4; ++k) {
+        C(0, static_cast<int>(k)) = first[k];
+        C(1, static_cast<int>(k)) = second[k];
+      }
       visit(C, rule.weight[i] * length);
     }
   }
@@ -250,8 +253,5 @@ struct Cable {
     return stiffness * (s * hessian + e.gradient * ds.transpose());
   }
 };
-
-static_assert(Element<Cable<2>> && Element<Cable<3>>);
-static_assert(Element<Cable<2, Engineering>> && Element<Cable<3, Engineering>>);
 
 }  // namespace sphmbs::mbs::ancf

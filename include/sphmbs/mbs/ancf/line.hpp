@@ -141,7 +141,8 @@ template <class E>
 Vector<E::node_dofs> line_node(const LineSpec<E>& spec, const AlongLine<E::dim>& shape, double s) {
   Vector<E::node_dofs> q;
   const Vector<E::dim> slope = shape.gradient(s);
-  q.template head<2 * E::dim>() << shape.value(s), slope;
+  q.template head<E::dim>() = shape.value(s);
+  q.template segment<E::dim>(E::dim) = slope;
   if constexpr (E::node_dofs == 12) {  // a beam: its directors are square to the axis
     const Vector<3> along = slope.normalized(), side = spec.up.cross(along);
     expects(side.norm() > 1e-6 * spec.up.norm(), "line: up", spec.up.transpose(),

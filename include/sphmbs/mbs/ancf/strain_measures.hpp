@@ -132,11 +132,11 @@ Strain<6, S> bending_strain(const Vector<6, S>& g, double smoothing) {
 
 /// Its second derivatives, by those of kappa^2 = (a c - b^2)/a^n in a = r'.r', b = r'.r'', c =
 /// r''.r''.
-template <class Measure>
-Matrix<6, 6> bending_strain_hessian(const Vector<6>& g, double smoothing) {
+template <class Measure, class S>
+Matrix<6, 6, S> bending_strain_hessian(const Vector<6, S>& g, double smoothing) {
   constexpr double n = Measure::curvature_power;
-  const Strain<6, double> strain = bending_strain<Measure>(g, smoothing);
-  const Vector<3> r1 = g.head<3>(), r2 = g.tail<3>();
+  const Strain<6, S> strain = bending_strain<Measure>(g, smoothing);
+  const Vector<3, S> r1 = g.template head<3>(), r2 = g.template tail<3>();
   const double a = r1.squaredNorm(), b = r1.dot(r2), c = r2.squaredNorm();
   const double f = Measure::curvature_power == 2 ? 1 / (a * a) : 1 / (a * a * a);
   const double square = (a * c - b * b) * f;
@@ -144,18 +144,18 @@ Matrix<6, 6> bending_strain_hessian(const Vector<6>& g, double smoothing) {
   const double kaa = -2 * n * c * f / a + n * (n + 1) * square / (a * a);
   const double kab = 2 * n * b * f / a, kac = (1 - n) * f, kbb = -2 * f;
 
-  Matrix<6, 6> h;
-  h.topLeftCorner<3, 3>() =
+  Matrix<6, 6, S> h;
+  h.template topLeftCorner<3, 3>() =
       r1 * (4 * kaa * r1 + 2 * kab * r2).transpose() + r2 * (2 * kab * r1 + kbb * r2).transpose();
-  h.topRightCorner<3, 3>() =
+  h.template topRightCorner<3, 3>() =
       r1 * (2 * kab * r1 + 4 * kac * r2).transpose() + (kbb * r2) * r1.transpose();
-  h.bottomRightCorner<3, 3>() = kbb * r1 * r1.transpose();
+  h.template bottomRightCorner<3, 3>() = kbb * r1 * r1.transpose();
   for (int i = 0; i < 3; ++i) {
     h(i, i) += 2 * ka;
     h(i, 3 + i) += kb;
     h(3 + i, 3 + i) += 2 * kc;
   }
-  h.bottomLeftCorner<3, 3>() = h.topRightCorner<3, 3>().transpose();
+  h.template bottomLeftCorner<3, 3>() = h.template topRightCorner<3, 3>().transpose();
   return (0.5 * h - strain.gradient * strain.gradient.transpose()) / strain.value;
 }
 

@@ -180,6 +180,4 @@ class Joint {
   std::vector<Product<Dim>> products_;
 };
 
-static_assert(LinearConstraint<Joint<2>> && LinearConstraint<Joint<3>>);
-
 }  // namespace sphmbs::mbs::joints

@@ -23,8 +23,10 @@ Joint<Dim> coincident(const Marker<Dim>& a, const Marker<Dim>& b, std::string_vi
   return {titled("coincident", name), {Held<Dim>{.a = a, .b = b}}};
 }
 /// Two points of space stay together: a ball joint, 3 conditions.
-inline Joint<3> spherical(const Marker<3>& a, const Marker<3>& b, std::string_view name = "") {
-  return {titled("spherical", name), {Held<3>{.a = a, .b = b}}};
+template <int Dim>
+requires(Dim == 3) Joint<Dim> spherical(const Marker<Dim>& a, const Marker<Dim>& b,
+                                        std::string_view name = "") {
+  return {titled("spherical", name), {Held<Dim>{.a = a, .b = b}}};
 }
 
 /// The point follows a path: Dim rheonomic conditions.

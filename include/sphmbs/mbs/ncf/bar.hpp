@@ -69,7 +69,11 @@ struct Bar {
   Matrix<2, 4> shape(const Material& X) const {
     const Matrix<2, 2> A = similarity(X / length());
     Matrix<2, 4> N;
-    N << Matrix<2, 2>::Identity() - A, A;
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) {
+        N(i, j) = (i == j ? 1 : 0) - A(i, j);
+        N(i, 2 + j) = A(i, j);
+      }
     return N;
   }
 
@@ -77,40 +81,55 @@ struct Bar {
   Matrix<4, 4> mass_matrix() const {
     const PlanarInertia p = mass_properties();
     const double L = length();
-    const Matrix<2, 2> one = Matrix<2, 2>::Identity();
     const Matrix<2, 2> first = similarity(p.mass / L * p.centre);
-    const Matrix<2, 2> second = p.polar_about_origin() / (L * L) * one;
+    const double second = p.polar_about_origin() / (L * L);
     Matrix<4, 4> M;
-    M << p.mass * one - first - first.transpose() + second, first - second,
-        first.transpose() - second, second;
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) {
+        const double one = i == j ? 1 : 0;
+        M(i, j) = p.mass * one - first(i, j) - first(j, i) + second * one;
+        M(i, 2 + j) = first(i, j) - second * one;
+        M(2 + i, j) = first(j, i) - second * one;
+        M(2 + i, 2 + j) = second * one;
+      }
     return M;
   }
 
   ///@{ As `Part` asks.
-  static Matrix<4, 2> translation() { return Matrix<2, 2>::Identity().replicate<2, 1>(); }
+  static Matrix<4, 2> translation() {
+    Matrix<4, 2> T = Matrix<4, 2>::Zero();
+    for (int k = 0; k < 4; ++k) T(k, k % 2) = 1;
+    return T;
+  }
   ///@}
 
   /// Phi = (|r2 - r1|^2 - L^2) / (2 L) [m]: to first order the change of length.
   Vector<1> rigidity(const Vector<4>& q) const {
     const double L = length();
-    return Vector<1>(((q.tail<2>() - q.head<2>()).squaredNorm() - L * L) / (2 * L));
+    const double x = q[2] - q[0], y = q[3] - q[1];
+    return Vector<1>((x * x + y * y - L * L) / (2 * L));
   }
   ///@{ As `Body` asks.
   Matrix<1, 4> rigidity_jacobian(const Vector<4>& q) const {
-    const Vector<2> e = (q.tail<2>() - q.head<2>()) / length();
-    return (Matrix<1, 4>() << -e.transpose(), e.transpose()).finished();
+    const double L = length(), x = (q[2] - q[0]) / L, y = (q[3] - q[1]) / L;
+    return {-x, -y, x, y};
   }
   Matrix<4, 4> rigidity_hessian(const Vector<1>& lambda) const {
-    const Matrix<2, 2> h = lambda[0] / length() * Matrix<2, 2>::Identity();
-    return (Matrix<4, 4>() << h, -h, -h, h).finished();
+    const double h = lambda[0] / length();
+    Matrix<4, 4> H = Matrix<4, 4>::Zero();
+    for (int k = 0; k < 4; ++k) {
+      H(k, k) = h;
+      H(k, (k + 2) % 4) = -h;
+    }
+    return H;
   }
   ///@}
 
   ///@{ As `Body` asks.
-  Vector<4> initial_coordinates() const { return (Vector<4>() << from, to).finished(); }
+  Vector<4> initial_coordinates() const { return {from[0], from[1], to[0], to[1]}; }
   Vector<4> initial_rates() const {
-    const Vector<2> turning = angular_velocity * quarter_turn() * (to - from);
-    return (Vector<4>() << velocity, velocity + turning).finished();
+    const Vector<2> other = velocity + angular_velocity * quarter_turn(to - from);
+    return {velocity[0], velocity[1], other[0], other[1]};
   }
   ///@}
 
