@@ -116,9 +116,11 @@ class Session {
     control_.begin();
     std::filesystem::remove(file("summary.json"));  // of an earlier run, should this one fail
     std::vector<ProbeProgress> probed;
+    sph::Pace pace;
     const auto show = [&](auto& archive) {
       if constexpr (!std::remove_cvref_t<decltype(archive)>::restores) probed = probes_.progress();
       archive("system", system_);
+      archive("pace", pace);
       if constexpr (requires { display_.visit_state(archive); }) archive("display", display_);
       archive("sampling", sampling);
       archive("tracing", tracing);
@@ -162,7 +164,7 @@ class Session {
     bool ended = false;
     try {
       ended = sphmbs::run(
-          system_, integrator, schedule,
+          system_, integrator, schedule, pace,
           [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling,
           AtProbes{*this}, tracing, writing);
     } catch (const NumericalFailure& failure) {

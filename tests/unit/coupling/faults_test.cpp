@@ -84,6 +84,16 @@ TEMPLATE_TEST_CASE("a coupled step that fails leaves gas and bodies where they w
   CHECK(ball.bodies.time() == ball.fluid.time());
 }
 
+TEST_CASE("undone before its first step, a coupled system is as it was made", "[coupling][fault]") {
+  Ball ball(small), untouched(small);
+  const auto q = ball.bodies.state().q, vdot = ball.bodies.state().vdot;
+  ball.system.undo();
+  CHECK(ball.bodies.state().q == q);
+  CHECK(ball.bodies.state().vdot == vdot);
+  for (Ball* b : {&ball, &untouched}) coupling::Staggered<>{}.step(b->system, [] { return 0.01; });
+  CHECK(ball.bodies.state().q == untouched.bodies.state().q);
+}
+
 TEST_CASE("bodies that fail within a step are undone with the gas", "[coupling][fault]") {
   Ball ball(small);
   coupling::Staggered<> scheme;

@@ -129,6 +129,41 @@ TEST_CASE("a NaN anywhere is found within a step, with particle and field", "[sp
   }
 }
 
+namespace {
+
+/// What is said of a NaN that the others see in a particle while its own state is sound.
+std::string seen_by_others(int field, std::uint32_t id) {
+  Fluid fluid = some_fluid();
+  step(fluid);
+  fluid.stage(0, 0);
+  const std::size_t i = place_of(fluid, id);
+  auto record = sphmbs::particles::load_record<2>(fluid.particles().records(), i);
+  double* const numbers[] = {&record.r[0], &record.v[1], &record.rho, &record.p,
+                             &record.c,    &record.h,    &record.m};
+  *numbers[field] = not_a_number;
+  sphmbs::particles::store_record<2>(fluid.particles().records(), i, record);
+  return what_fails([&] { fluid.rates(0); }).text;
+}
+
+}  // namespace
+
+TEST_CASE("a NaN that only neighbours see is told of the particle that has it", "[sph][fault]") {
+  test::Random random(14);
+  for (int trial = 0; trial < 210; ++trial) {
+    const auto id = static_cast<std::uint32_t>(random.between(0, 323.99));
+    CAPTURE(trial, id);
+    std::string first;
+    for (const int threads : {1, 2, 4}) {
+      const test::Threads some(threads);
+      const std::string text = seen_by_others(trial % 7, id);
+      if (threads == 1) first = text;
+      REQUIRE(text == first);
+    }
+    REQUIRE_THAT(first, Contains("gas particle #" + std::to_string(id) + " "));
+    if (trial % 7 == 6) REQUIRE_THAT(first, Contains("mass not finite"));
+  }
+}
+
 TEST_CASE("an infinite number is found as a NaN is", "[sph][fault]") {
   for (const std::string& field : fields) {
     CAPTURE(field);
@@ -287,6 +322,38 @@ TEST_CASE("ten particles at one point go on, ten thousand are refused by name", 
   const Said said = what_fails([&] { step(crowded); });
   CHECK(said.id == "E311");
   CHECK_THAT(said.text, Contains("particle #0 has ") && Contains("8192"));
+}
+
+TEST_CASE("two particles at one point push each other with finite, opposite forces",
+          "[sph][fault]") {
+  auto cloud = test::disordered_cloud<2>(18, spacing, 71);
+  const std::uint32_t one = 100, other = 101;
+  cloud.r[other] = cloud.r[one];
+  const bool alike = GENERATE(false, true);
+  if (alike) {
+    for (auto* field : {&cloud.rho, &cloud.p, &cloud.h, &cloud.m}) (*field)[other] = (*field)[one];
+    cloud.v[other] = cloud.v[one];
+  }
+  Fluid fluid({}, test::cube<2>(side, true), cloud);
+  fluid.stage(0, 0);
+  fluid.rates(0);
+  const auto rates = test::rates_by_id(fluid);
+  sphmbs::Vec<2> sum{};
+  double size = 0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    for (const double x : {rates.v[i][0], rates.v[i][1], rates.rho[i], rates.e[i], rates.h[i]})
+      REQUIRE(std::isfinite(x));
+    sum += cloud.m[i] * rates.v[i];
+    size += cloud.m[i] * std::sqrt(norm2(rates.v[i]));
+  }
+  CHECK(std::sqrt(norm2(sum)) < 1e-12 * size);
+  // What is the same in all its numbers feels the same: nothing between the two prefers one.
+  if (alike) {
+    CHECK(rates.v[one][0] == Approx(rates.v[other][0]).epsilon(1e-12));
+    CHECK(rates.v[one][1] == Approx(rates.v[other][1]).epsilon(1e-12));
+    CHECK(rates.e[one] == Approx(rates.e[other]).epsilon(1e-12));
+  }
+  for (int k = 0; k < 5; ++k) step(fluid);
 }
 
 TEST_CASE("a single particle and none are no surprise", "[sph][fault]") {
