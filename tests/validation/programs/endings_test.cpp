@@ -15,7 +15,7 @@ using Words = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("a run that blows up says where, and keeps what it had", "[programs]") {
+TEST_CASE("a run that blows up says where, and keeps what it had", "[programs][fault]") {
   const test::Scratch scratch;
   // Eleven times the stable step.
   const auto ended = test::start(scratch, SPHMBS_GAS_CYLINDER,
@@ -48,7 +48,7 @@ TEST_CASE("a run that blows up says where, and keeps what it had", "[programs]")
   CHECK(!fs::exists(run / "summary.json"));
 }
 
-TEST_CASE("results do not depend on back end and threads", "[programs]") {
+TEST_CASE("results do not depend on back end and threads", "[programs][fault]") {
   struct Case {
     const char* program;
     Words words;
