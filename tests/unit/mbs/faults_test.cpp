@@ -106,6 +106,7 @@ TEST_CASE("a slider goes back to the element of its rail that an undone step beg
           "[mbs][fault]") {
   using Cable = ancf::Cable<2>;
   Structure<Cable, ncf::Bar, joints::Joint<2>, joints::Sliding<Cable>> model;
+  model.gravity = {0, -9.81};
   const auto line = ancf::line(
       model,
       {.from = {0, 0},
@@ -134,7 +135,7 @@ TEST_CASE("a slider goes back to the element of its rail that an undone step beg
   }
   SECTION("a failed step leaves it where it is") {
     const GeneralizedAlpha hasty{
-        .newton = {.tolerance = 1e-300, .max_iterations = 2, .max_halvings = 0}};
+        .newton = {.tolerance = 1e-12, .max_iterations = 1, .max_halvings = 0}};
     system.recall(memory);
     CHECK_THROWS_AS(hasty.step(system, [] { return 0.1; }), NumericalFailure);
     CHECK(slider().element() == 0);

@@ -89,6 +89,40 @@ TEST_CASE("the n-th call on a checkpoint fails: no effect, or the next one serve
     }
 }
 
+TEST_CASE("no failure on the way to a checkpoint's name goes unnoticed", "[fault]") {
+  struct Failure {
+    const char* call;
+    int at, error;
+  };
+  const test::Scratch scratch;
+  const fs::path straight = scratch.work() / "straight", folder = scratch.work() / "run";
+  REQUIRE(run(scratch, {"--output", straight.string()}).code == 0);
+  // Of fsync and close every second call is on the folder, whose close tells nothing. A byte that
+  // the disk changes shows when the file is read again.
+  for (const Failure& f : {Failure{"fsync", 1, EIO},
+                           {"fsync", 2, EIO},
+                           {"fsync", 9, EIO},
+                           {"close", 1, EIO},
+                           {"close", 9, EIO},
+                           {"rename", 1, EIO},
+                           {"rename", 5, EIO},
+                           {"write", 20, -1}}) {
+    CAPTURE(f.call, f.at);
+    fs::remove_all(folder);
+    const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+                            {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                             {"FAIL_IN", (folder / "checkpoint").string()},
+                                             {"FAIL_CALL", f.call},
+                                             {"FAIL_AT", std::to_string(f.at)},
+                                             {"FAIL_WITH", std::to_string(f.error)}}});
+    INFO(ended.log);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.log, Catch::Contains("checkpoint not written"));
+    CHECK(test::differences(straight, folder) == "");
+    check_checkpoints(scratch, folder);
+  }
+}
+
 TEST_CASE("a folder for checkpoints that goes away is told of, and ends the run in the end",
           "[fault]") {
   const test::Scratch scratch;
