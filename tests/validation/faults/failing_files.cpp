@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Preloaded into a program, makes the n-th call of write, fsync, close or rename on files below the
 // folder FAIL_IN fail: n is FAIL_AT, the error FAIL_WITH, where 0 means half of what was to be
-// written and -1 that another byte is. With FAIL_CALL only calls of that function count.
+// written -1 that another byte is, and -2 that it takes ten seconds. With FAIL_CALL only calls of
+// that function count.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -59,13 +60,16 @@ extern "C" {
 
 ssize_t write(int file, const void* data, size_t size) {
   const bool fail = is_below(file) && fails("write");
+  if (fail && error_number() == -2)
+    for (unsigned left = 10; left > 0;) left = ::sleep(left);
   if (fail && error_number() == -1 && size > 0) {
     std::string other(static_cast<const char*>(data), size);
     other[size / 2] = static_cast<char>(other[size / 2] ^ 1);
     return real(write, "write")(file, other.data(), size);
   }
-  if (fail && error_number() != 0) return failed();
-  return real(write, "write")(file, data, fail && size > 1 ? size / 2 : size);
+  if (fail && error_number() > 0) return failed();
+  return real(write, "write")(file, data,
+                              fail && error_number() == 0 && size > 1 ? size / 2 : size);
 }
 
 int fsync(int file) {
