@@ -116,9 +116,11 @@ class Session {
     for (std::string& name : recorder_.names()) written_.push_back(std::move(name));
     if (settings_.check) check(is_new, seconds_since(begin));
     std::vector<ProbeProgress> probed;
+    sph::Pace pace;
     const auto show = [&](auto& archive) {
       if constexpr (!std::remove_cvref_t<decltype(archive)>::restores) probed = probes_.progress();
       archive("system", system_);
+      archive("pace", pace);
       if constexpr (requires { display_.visit_state(archive); }) archive("display", display_);
       archive("sampling", sampling);
       archive("tracing", tracing);
@@ -170,7 +172,7 @@ class Session {
     bool ended = false;
     try {
       ended = sphmbs::run(
-          system_, integrator, schedule,
+          system_, integrator, schedule, pace,
           [&](System&, const sph::StepLimit& limit) { progress(limit); }, boundary, sampling,
           AtProbes{*this}, tracing, writing);
     } catch (const NumericalFailure& failure) {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -194,13 +196,14 @@ sph::StepLimit fixed_step(System& system, double length, int steps, double longe
 /// A step of a system that can be undone, and that fails, is tried again half as long, up to 8
 /// times. A fixed step then goes on in such parts to its end, and so does one that is longer than
 /// what is stable at a cfl of 1, in up to 256; observers do not see the ends of parts.
+/// @param pace    what was learnt of the steps so far, which a checkpoint keeps
 /// @param report  called as report(system, StepLimit) before every step is taken
 /// @return whether the end was reached: false where BetweenSteps ended the run before
 /// @throws InvalidInput for a bad schedule; NumericalFailure from the system, and where steps
 ///         collapse.
 template <class System, class Integrator, class Report, class... Observers>
-bool run(System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
-         Observers&&... observers) {
+bool run(System& system, const Integrator& integrator, const Schedule& schedule, sph::Pace& pace,
+         Report&& report, Observers&&... observers) {
   schedule.check();
   if constexpr (requires { integrator.accuracy; })
     expects(schedule.step || integrator.accuracy, "step", "none",
@@ -213,10 +216,10 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
       return true;
   };
   const double close = 1e-12 * schedule.until;
-  sph::Pace pace(schedule.floor);
-  double due = system.time();   // end of the fixed step [s]
-  bool whole = true;            // nothing of it is done yet
-  std::optional<double> tried;  // length [s]
+  if (schedule.floor) pace.set_floor(*schedule.floor);
+  double due = system.time();  // end of the fixed step [s]
+  bool whole = true;           // nothing of it is done yet
+  double tried = 0;            // length [s]; 0 before it is chosen
   const auto choose_step = [&] {
     const int steps = limited_steps(integrator);
     const double now = system.time();
@@ -250,20 +253,20 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
   while (system.time() < schedule.until - close) {
     if (whole && !pace.retrying() && !(may_go_on(observers) && ...)) return false;
     const double begin = system.time();
-    tried.reset();
+    tried = 0;
     if constexpr (Undoable<System>) {
       try {
         integrator.step(system, choose_step);
       } catch (const BeyondModel&) {
-        if (tried && system.time() == begin) system.undo();
+        if (tried > 0 && system.time() == begin) system.undo();
         throw;
       } catch (const NumericalFailure& failure) {
         // Of the state itself, or of what a step has led to.
-        if (!tried || system.time() != begin) throw;
+        if (!(tried > 0) || system.time() != begin) throw;
         system.undo();
-        if (pace.exhausted() || pace.too_small(*tried / 2, due - begin, schedule.step.has_value()))
+        if (pace.exhausted() || pace.too_small(tried / 2, due - begin, schedule.step.has_value()))
           throw sph::after_retries(failure);
-        pace.failed(*tried);
+        pace.failed(tried);
         continue;
       }
     } else {
@@ -280,6 +283,16 @@ bool run(System& system, const Integrator& integrator, const Schedule& schedule,
   }
   observe(true);
   return true;
+}
+
+/// The same from the beginning, or for runs that are not saved.
+template <class System, class Integrator, class Report, class... Observers>
+requires(!std::same_as<std::remove_cvref_t<Report>, sph::Pace>) bool run(
+    System& system, const Integrator& integrator, const Schedule& schedule, Report&& report,
+    Observers&&... observers) {
+  sph::Pace pace;
+  return run(system, integrator, schedule, pace, std::forward<Report>(report),
+             std::forward<Observers>(observers)...);
 }
 
 }  // namespace sphmbs

@@ -56,6 +56,7 @@ class Immersed {
     bodies_.start_under(load);
     mean_load_ = mbs::MeanLoad(load);
     watch_.begin(fluid, surface);
+    remember();
   }
 
   double time() const { return fluid_.time(); }  ///< [s]
@@ -98,10 +99,14 @@ class Immersed {
     archive("repetition", repetition_);
     archive("exchanged", exchanged_);
     archive("watch", watch_);
-    if constexpr (A::restores) depart(state().q, state().v, state().vdot);
+    if constexpr (A::restores) {
+      depart(state().q, state().v, state().vdot);
+      remember();
+    }
   }
 
-  /// Back to the beginning of the step, as long as the gas has not been moved.
+  /// Back to the beginning of the step, as long as the gas has not been moved; before the first
+  /// step, to the start or to the checkpoint that was restored.
   void undo() {
     fluid_.undo();
     bodies_.recall(before_.bodies);
@@ -116,7 +121,7 @@ class Immersed {
   /// @throws NumericalFailure for a state of the bodies that is not finite.
   void begin() {
     bodies_.require_finite();
-    before_ = {bodies_.memory(), mean_load_, exchanged_};
+    remember();
   }
   /// Sends the wetted particles on their way from such coordinates, rates and accelerations.
   /// Virtual particles are to follow bodies that start from q with v and a.
@@ -154,6 +159,8 @@ class Immersed {
   /// @}
 
  private:
+  void remember() { before_ = {bodies_.memory(), mean_load_, exchanged_}; }
+
   Fluid& fluid_;
   Bodies& bodies_;
   Surface& surface_;

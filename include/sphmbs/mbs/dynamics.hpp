@@ -201,7 +201,7 @@ class Dynamics {
   Memory memory() const {
     return {state_, algorithmic_, powers_, last_step_, suggested_step_, dissipated_, work_, worst_};
   }
-  /// Undoes everything since `memory`.
+  /// Undoes everything since `memory`; joints that move along go back to where they were.
   void recall(const Memory& m) {
     state_ = m.state;
     algorithmic_ = m.algorithmic;
@@ -211,6 +211,7 @@ class Dynamics {
     dissipated_ = m.dissipated;
     work_ = m.work;
     worst_ = m.worst;
+    equations_.relocate(state_.q);
     factors_.forget();
   }
 

@@ -149,7 +149,13 @@ struct GeneralizedAlpha {
     }
     state.v += x.head(n);
     residual.tail(m) = without_removed(equations, acceleration_of_conditions(equations, state));
-    factors.correct(residual, x);
+    if (!factors.correct(residual, x)) {
+      next.course.failure = "the acceleration of " +
+                            equations.name_of_condition(first_not_finite(residual.tail(m))) +
+                            " is not a number";
+      next.course.converged = false;
+      return;
+    }
     state.vdot += x.head(n);
     next.algorithmic += x.head(n);
     state.lambda += x.tail(m) / w.mass;
@@ -223,6 +229,7 @@ struct GeneralizedAlpha {
 
   template <class System>
   [[noreturn]] void fail(System& system, const Attempt& failed, double h) const {
+    system.equations().relocate(system.state().q);
     std::ostringstream text;
     text << "Generalized-alpha: Newton's method does not converge at t = " << failed.state.t
          << " s with a step of " << h << " s, after " << newton.max_halvings << " halvings";

@@ -80,7 +80,7 @@ class Culprit {
         "neighbours, hold a number that is not finite, or is huge";
     for (const auto& [name, good] :
          {std::pair{"position", finite(now_.r)}, std::pair{"velocity", finite(now_.v)},
-          std::pair{"density", is_finite(now_.rho)},
+          std::pair{"mass", is_finite(now_.m)}, std::pair{"density", is_finite(now_.rho)},
           std::pair{"smoothing length", is_finite(now_.h)}})
       if (!good) return {"E301", name + std::string(" not finite"), spread, shorter};
     if (!(now_.rho > 0)) return {"E302", "density not positive", long_step, shorter};

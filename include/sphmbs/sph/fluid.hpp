@@ -117,6 +117,11 @@ class Fluid {
     statistics_.evaluated(survey_.pairs, survey_.falls);
     judged_ = false;
     if (survey_.is_sick()) {
+      // A number that is not finite makes the rates of all around it so: who had it is named.
+      const std::uint32_t origin = culprit_of<Policy>(
+          SickRecord<dim, T>{particles_.records(), particles_.fields().id, culprit_.data()},
+          culprit_, size());
+      if (origin != nobody) fail_for_state(origin, staged_);
       const CulpritType culprit(particles_, survey_.sick);
       fail(culprit.rates(), survey_.sick, staged_, culprit.text(scheme_.eos));
     }

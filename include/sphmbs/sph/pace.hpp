@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
+#include <sphmbs/core/archive.hpp>
 #include <sphmbs/core/error.hpp>
 #include <sphmbs/sph/survey.hpp>
 
@@ -21,8 +21,8 @@ class Pace {
   static constexpr double tiny = 1e-6;       ///< of the first step, where no floor is given [-]
   static constexpr double most_parts = 256;  ///< that a fixed step is divided into
 
-  /// @param floor  below which a step is tiny [s]
-  explicit Pace(const std::optional<double>& floor) : floor_(floor) {}
+  /// Steps below this are tiny [s].
+  void set_floor(double floor) { floor_ = floor; }
 
   /// No try may be longer than this [s].
   double longest() const { return longest_; }
@@ -50,13 +50,20 @@ class Pace {
   /// Whether the limits of so many steps in a row were tiny. @param dt  what limits allow now [s]
   bool collapsed(double dt) {
     if (!(dt > 0)) return true;
-    if (!floor_ && std::isfinite(dt)) floor_ = tiny * dt;
-    count_ = floor_ && dt < *floor_ ? count_ + 1 : 0;
+    if (floor_ < 0 && std::isfinite(dt)) floor_ = tiny * dt;
+    count_ = dt < floor_ ? count_ + 1 : 0;
     return count_ >= most_tiny;
   }
 
+  /// What a checkpoint keeps of it, see `Archive`; between steps, when no try is under way.
+  template <Archive A>
+  void visit_state(A& archive) {
+    archive("floor", floor_);
+    archive("tiny", count_);
+  }
+
  private:
-  std::optional<double> floor_;
+  double floor_ = -1;  // [s]; below 0 before the first step
   double longest_ = std::numeric_limits<double>::infinity();
   int retries_ = 0;
   int count_ = 0;

@@ -175,6 +175,23 @@ struct JudgeUpdate {
   }
 };
 
+/// Notes the lowest id among particles that others see with a number that is not finite.
+template <int Dim, class T>
+struct SickRecord {
+  const T* records;         ///< of all particles, see `particles::Record`
+  const std::uint32_t* id;  ///< of all particles
+  std::uint32_t* culprit;   ///< lowest id of a particle with such a number
+
+  /// For particle i: the body of a loop.
+  SPHMBS_INLINE void operator()(std::size_t i) const {
+    const particles::Record<Dim, T> s = particles::load_record<Dim>(records, i);
+    bool good =
+        is_finite(s.rho) && is_finite(s.p) && is_finite(s.c) && is_finite(s.h) && is_finite(s.m);
+    for (int k = 0; k < Dim; ++k) good = good && is_finite(s.r[k]) && is_finite(s.v[k]);
+    if (!good) atomic::lower(culprit, id[i]);
+  }
+};
+
 /// Lets `body` loop over n particles, with the memory for its culprit.
 /// @return the culprit's id, or nobody
 template <execution::ExecutionPolicy Policy, class Body>

@@ -87,11 +87,23 @@ TEMPLATE_TEST_CASE("a coupled step that fails leaves gas and bodies where they w
   CHECK(ball.bodies.time() == ball.fluid.time());
 }
 
+TEST_CASE("undone before its first step, a coupled system is as it was made", "[coupling][fault]") {
+  Ball ball(small), untouched(small);
+  const auto q = ball.bodies.state().q, vdot = ball.bodies.state().vdot;
+  ball.system.undo();
+  CHECK(ball.bodies.state().q == q);
+  CHECK(ball.bodies.state().vdot == vdot);
+  for (Ball* b : {&ball, &untouched}) coupling::Staggered<>{}.step(b->system, [] { return 0.01; });
+  CHECK(ball.bodies.state().q == untouched.bodies.state().q);
+}
+
 TEST_CASE("bodies that fail within a step are undone with the gas", "[coupling][fault]") {
   Ball ball(small);
   coupling::Staggered<> scheme;
   scheme.step(ball.system, [] { return 0.01; });
   const auto q = ball.bodies.state().q;
+  const auto before = ball.system.exchanged();
+  REQUIRE(before.work_of_gas != 0);
   scheme.structure_steps = 3;
   int calls = 0;
   // Newton's method cannot succeed.
@@ -107,11 +119,19 @@ TEST_CASE("bodies that fail within a step are undone with the gas", "[coupling][
   ball.system.undo();
   CHECK(calls == 1);
   CHECK(ball.bodies.state().q == q);
+  CHECK(ball.system.exchanged().work_of_gas == before.work_of_gas);
+  CHECK(test::same_bits(ball.system.exchanged().impulse, before.impulse));
   // Nor do bodies stay where some of several steps have led them.
   ball.system.begin();
   sphmbs::mbs::GeneralizedAlpha{}.step(ball.bodies, [] { return 0.1; });
   CHECK(ball.bodies.state().q != q);
+  auto& load = ball.system.mean_load();
+  const sphmbs::mbs::VectorXd mean = sphmbs::mbs::VectorXd::Ones(q.size());
+  const sphmbs::mbs::VectorXd end = load.at_end(scheme.structure, mean, 0.1).load;
+  load.accept(load.at_end(scheme.structure, mean, 0.1), 0.1);
+  CHECK(load.at_end(scheme.structure, mean, 0.1).load != end);
   ball.system.undo();
+  CHECK(load.at_end(scheme.structure, mean, 0.1).load == end);
   CHECK(ball.bodies.state().q == q);
   CHECK(ball.bodies.time() == ball.fluid.time());
 }
@@ -156,6 +176,16 @@ TEST_CASE("a coupling that diverges ends with the course of its forces", "[coupl
   Ball good(plan);
   sphmbs::run(good.system, coupling::Strong<>{}, {.until = 0.1, .step = 0.02}, sphmbs::no_report);
   CHECK(good.velocity().norm() < 0.2);
+}
+
+TEST_CASE("forces that are near agreement when the repetitions end are not taken for it",
+          "[coupling][fault]") {
+  Ball ball(small);
+  const coupling::Strong<coupling::Relaxation> short_of_it{.repeat = {.share = 0.5}, .most = 1};
+  const std::string text = test::complaint<NumericalFailure>(
+      [&] { short_of_it.step(ball.system, [] { return 0.02; }); });
+  CHECK_THAT(text, Contains("do not agree after 1 repetitions"));
+  CHECK(ball.system.time() == 0);
 }
 
 TEST_CASE("gas that gets into a body is counted and named, or stops the run", "[coupling][fault]") {

@@ -194,7 +194,7 @@ TEST_CASE("the list has key, type, unit, default, range and meaning") {
     CHECK_THAT(run.out, Catch::Matchers::Contains(part));
 }
 
-TEST_CASE("every bad line of a file gives one line with its place", "[fault]") {
+TEST_CASE("every bad line of a file gives one line with its place", "[examples][fault]") {
   struct Case {
     std::string text;
     std::string message;
@@ -292,7 +292,7 @@ TEST_CASE("every bad line of a file gives one line with its place", "[fault]") {
   }
 }
 
-TEST_CASE("a file that cannot be read is refused", "[fault]") {
+TEST_CASE("a file that cannot be read is refused", "[examples][fault]") {
   const auto message = [](Run& run, const std::string& file) {
     run.with({file});
     CHECK(run.code == 2);
@@ -321,7 +321,7 @@ TEST_CASE("a file that cannot be read is refused", "[fault]") {
         large + ": error E001 is larger than 1 MiB: no parameter file" + last);
 }
 
-TEST_CASE("all mistakes are listed at once, those of the file by line", "[fault]") {
+TEST_CASE("all mistakes are listed at once, those of the file by line", "[examples][fault]") {
   Run run;
   const std::string file = run.file(
       "[wedge]\ncorner = 3\n[run]\nuntil = -1\ncfll = 1\n[[probes]]\nname = \"a\"\n[gas]\n"
@@ -358,7 +358,7 @@ TEST_CASE("require says where the value came from") {
   CHECK(run.err == file + ":2:11: error E023 run.spacing = 0.3: must be below 0.2 m" + last);
 }
 
-TEST_CASE("mutated parameter files are read or refused, whatever they hold", "[fault]") {
+TEST_CASE("mutated parameter files are read or refused, whatever they hold", "[examples][fault]") {
   std::mt19937 random(20240607);
   const auto any = [&random](std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
@@ -416,7 +416,7 @@ TEST_CASE("names are suggested that were likely meant") {
   CHECK(nearest_name(std::string(100000, 'a'), names).empty());
 }
 
-TEST_CASE("a run writes what it used and keeps others out of its directory") {
+TEST_CASE("a run writes what it used and keeps others out of its directory", "[examples][fault]") {
   Run run;
   const fs::path out = run.scratch / "out";
   const std::string text = out.string();
@@ -483,7 +483,7 @@ TEST_CASE("what is in a file that a parameter names belongs to a run") {
   CHECK(content(std::string(200000, ' ')) != content(std::string(200000, '\n')));
 }
 
-TEST_CASE("what a run leaves that was killed is taken over") {
+TEST_CASE("what a run leaves that was killed is taken over", "[examples][fault]") {
   Run run;
   const fs::path out = run.scratch / "out";
   fs::create_directory(out);

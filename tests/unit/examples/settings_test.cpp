@@ -91,7 +91,7 @@ TEST_CASE("the serial back end has one thread") {
         "command line: error E023 --threads 2: must be 1 with --backend serial\n" + last_line);
 }
 
-TEST_CASE("every bad option gives one line, exit code 2 and no result") {
+TEST_CASE("every bad option gives one line, exit code 2 and no result", "[examples][fault]") {
   struct Case {
     std::vector<std::string> words;
     std::string message;
@@ -187,7 +187,7 @@ TEST_CASE("a refused command line changes no variable") {
   CHECK_FALSE(run.viscous);
 }
 
-TEST_CASE("the output directory is checked and nothing in it is touched") {
+TEST_CASE("the output directory is checked and nothing in it is touched", "[examples][fault]") {
   Run run;
   const auto message = [&run](const fs::path& output, std::vector<std::string> more = {}) {
     more.insert(more.end(), {"--output", output.string()});
@@ -300,7 +300,7 @@ TEST_CASE("a program checks its options against the problem by require") {
   CHECK_THROWS_AS(require(false, "--kernel", "cubic", "smooth"), InvalidInput);
 }
 
-TEST_CASE("guarded_main maps every exception to its exit code") {
+TEST_CASE("guarded_main maps every exception to its exit code", "[examples][fault]") {
   const auto code = [](const std::function<void(const Settings&)>& body, const std::string& line) {
     Run run;
     run.with({}, body);

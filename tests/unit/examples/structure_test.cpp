@@ -153,7 +153,7 @@ TEST_CASE("a program without gas needs a step or an accuracy among its defaults"
   CHECK_THROWS_AS(Parameters(program), std::invalid_argument);
 }
 
-TEST_CASE("a program without gas that is out of memory says what helps") {
+TEST_CASE("a program without gas that is out of memory says what helps", "[examples][fault]") {
   Parameters line(chain());
   const char* const argv[] = {"chain"};
   std::ostringstream out, err;

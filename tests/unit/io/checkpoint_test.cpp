@@ -190,6 +190,12 @@ TEST_CASE("no damage to a checkpoint goes unnoticed", "[io][fault]") {
     bytes[any(bytes.size())] ^= static_cast<char>(1 << any(8));
     refused(bytes, any_reason);
   }
+  const auto numbers = io::CheckpointFile(path).section("state/list", "f64");
+  for (std::uint64_t k = 0; k < numbers.bytes; ++k) {  // within the data of a section
+    auto bytes = good;
+    bytes[static_cast<std::size_t>(numbers.begin) + k] ^= 1;
+    refused(bytes, "checksum of section state/list");
+  }
   for (int trial = 0; trial < 500; ++trial)
     refused({good.begin(), good.begin() + static_cast<long>(any(good.size()))},
             "truncated|not a checkpoint");

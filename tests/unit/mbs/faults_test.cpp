@@ -3,6 +3,11 @@
 #include <limits>
 #include <string>
 
+#include <sphmbs/mbs/ancf/cable.hpp>
+#include <sphmbs/mbs/ancf/line.hpp>
+#include <sphmbs/mbs/joints/driven_angle.hpp>
+#include <sphmbs/mbs/joints/sliding.hpp>
+
 #include "support/catch.hpp"
 #include "support/errors.hpp"
 #include "support/mechanisms.hpp"
@@ -56,6 +61,85 @@ TEST_CASE("steps of a structure that collapse name the part that asks for them",
   CHECK_THAT(text, Contains("steps have become too short") && Contains("accuracy") &&
                        Contains("the error of bar "));
   CHECK(system.statistics().steps == 20);
+}
+
+TEST_CASE("a stiff element of a cable that asks for tiny steps is named", "[mbs][fault]") {
+  using Cable = ancf::Cable<2>;
+  Structure<Cable, joints::Joint<2>> model;
+  model.gravity = {0, -9.81};
+  auto line = ancf::line(
+      model, {.from = {0, 0},
+              .to = {1, 0},
+              .elements = 4,
+              .prototype =
+                  Cable{.axial_stiffness = 100, .bending_stiffness = 0.01, .mass_per_length = 1}});
+  model.add(joints::pinned(line.start(), model.q(), "root"));
+  model.template all<Cable>()[3].part.axial_stiffness *= 1e6;
+  VectorXd v = model.v();
+  v[v.size() - 2] = 10;  // stretches the last element
+  model.start_from(model.q(), v);
+  Dynamics<decltype(model), solvers::SparseLU, sphmbs::execution::Serial> system(model);
+  const std::string text = test::complaint<NumericalFailure>([&] {
+    sphmbs::run(system, GeneralizedAlpha{.accuracy = 1e-7}, {.until = 1, .floor = 1e-4},
+                sphmbs::no_report);
+  });
+  CHECK_THAT(text, Contains("steps have become too short") && Contains("the error of cable 3"));
+  CHECK(system.statistics().steps < 25);
+}
+
+TEST_CASE("an acceleration from nowhere is told in the step that it comes in", "[mbs][fault]") {
+  test::PlanarMechanism mechanism;
+  const auto bar = mechanism.add(test::thin_bar({0, 0}, {1, 0}));
+  mechanism.add(joints::pinned(bar.start(), mechanism.q(), "root"));
+  const joints::TimeFunction angle([](double t) { return t * t; }, [](double t) { return 2 * t; },
+                                   [](double t) { return t < 0.0999 ? 2 : not_a_number; });
+  mechanism.add(joints::driven_angle(bar.vector({0, 0}, {1, 0}), angle, mechanism.q(), "drive"));
+  System<solvers::SparseLU> system(mechanism);
+  const std::string text = test::complaint<NumericalFailure>(
+      [&] { test::advance(system, GeneralizedAlpha{.newton = {.max_halvings = 0}}, 1, 0.01); });
+  CHECK_THAT(text, Contains("the acceleration of driven angle 'drive' is not a number"));
+  CHECK(system.time() == Approx(0.09));
+  CHECK(system.state().vdot.allFinite());
+}
+
+TEST_CASE("a slider goes back to the element of its rail that an undone step began on",
+          "[mbs][fault]") {
+  using Cable = ancf::Cable<2>;
+  Structure<Cable, ncf::Bar, joints::Joint<2>, joints::Sliding<Cable>> model;
+  model.gravity = {0, -9.81};
+  const auto line = ancf::line(
+      model,
+      {.from = {0, 0},
+       .to = {3, 0},
+       .elements = 3,
+       .prototype = Cable{.axial_stiffness = 100, .bending_stiffness = 1, .mass_per_length = 1}});
+  model.add(joints::pinned(line.start(), model.q(), "A"));
+  model.add(joints::pinned(line.end(), model.q(), "B"));
+  const auto bar = model.add(test::thin_bar({0.9, 0}, {0.9, -1}));
+  VectorXd v = model.v();
+  for (const Node& node : bar.nodes) v[node.offset] = 5;
+  model.start_from(model.q(), v);
+  model.add(joints::sliding(model, line.elements, {.slider = bar.start(), .at = 0.9}));
+  Dynamics<decltype(model), solvers::SparseLU, sphmbs::execution::Serial> system(model);
+  const auto slider = [&]() -> auto& { return model.template all<joints::Sliding<Cable>>()[0]; };
+  const auto energies = system.energies();
+  const auto memory = system.memory();
+  REQUIRE(slider().element() == 0);
+  GeneralizedAlpha{}.step(system, [] { return 0.05; });
+  GeneralizedAlpha{}.step(system, [] { return 0.05; });
+  REQUIRE(slider().element() == 1);
+  SECTION("recalled") {
+    system.recall(memory);
+    CHECK(slider().element() == 0);
+    CHECK(system.energies().total() == energies.total());
+  }
+  SECTION("a failed step leaves it where it is") {
+    const GeneralizedAlpha hasty{
+        .newton = {.tolerance = 1e-12, .max_iterations = 1, .max_halvings = 0}};
+    system.recall(memory);
+    CHECK_THROWS_AS(hasty.step(system, [] { return 0.1; }), NumericalFailure);
+    CHECK(slider().element() == 0);
+  }
 }
 
 TEST_CASE("Newton's method that cannot succeed says the same with every solver", "[mbs][fault]") {

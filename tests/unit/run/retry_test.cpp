@@ -2,7 +2,9 @@
 // Steps that fail, of a system that fails as it is told to.
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sphmbs/run.hpp>
@@ -162,6 +164,52 @@ TEST_CASE("steps that collapse end the run after twenty, with what limits them",
       sphmbs::run(shallow, PredictorCorrector{}, {.until = 1, .cfl = 1, .floor = 0.02}, quiet),
       NumericalFailure);
   CHECK(shallow.steps.size() == 2 + 19);
+}
+
+namespace {
+
+/// Numbers by name, as a checkpoint keeps them.
+struct Kept {
+  static constexpr bool restores = false;
+  std::map<std::string_view, double> numbers;
+  void operator()(std::string_view name, auto& value) {
+    numbers[name] = static_cast<double>(value);
+  }
+};
+struct Restored {
+  static constexpr bool restores = true;
+  const Kept& kept;
+  template <class T>
+  void operator()(std::string_view name, T& value) {
+    value = static_cast<T>(kept.numbers.at(name));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a run that goes on from a checkpoint collapses where one would that was never saved",
+          "[run][fault]") {
+  const auto courant = [](double t) { return t < 0.5 ? 0.25 : 1e-8; };
+  Fragile straight;
+  straight.courant = courant;
+  CHECK_THROWS_AS(sphmbs::run(straight, PredictorCorrector{}, {.until = 1, .cfl = 1}, quiet),
+                  NumericalFailure);
+  for (const std::size_t stop : {1, 2, 9}) {
+    CAPTURE(stop);
+    Fragile parts;  // goes on as it was, as a system does that is restored
+    parts.courant = courant;
+    sphmbs::sph::Pace pace;
+    sphmbs::BetweenSteps ask([&](Fragile& system) { return system.steps.size() < stop; });
+    CHECK_FALSE(sphmbs::run(parts, PredictorCorrector{}, {.until = 1, .cfl = 1}, pace, quiet, ask));
+    Kept kept{};
+    pace.visit_state(kept);
+    sphmbs::sph::Pace again;
+    Restored restored{kept};
+    again.visit_state(restored);
+    CHECK_THROWS_AS(sphmbs::run(parts, PredictorCorrector{}, {.until = 1, .cfl = 1}, again, quiet),
+                    NumericalFailure);
+    CHECK(parts.steps.size() == straight.steps.size());
+  }
 }
 
 TEST_CASE("a step that is zero or not a number ends the run at once", "[run][fault]") {

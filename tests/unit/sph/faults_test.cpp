@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a gas does when its numbers go wrong.
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -129,6 +130,42 @@ TEST_CASE("a NaN anywhere is found within a step, with particle and field", "[sp
   }
 }
 
+namespace {
+
+/// What is said of a NaN that the others see in a particle while its own state is sound.
+std::string seen_by_others(int field, std::uint32_t id) {
+  Fluid fluid = some_fluid();
+  step(fluid);
+  fluid.stage(0, 0);
+  const std::size_t i = place_of(fluid, id);
+  auto record = sphmbs::particles::load_record<2>(fluid.particles().records(), i);
+  double* const numbers[] = {&record.r[0], &record.v[1], &record.rho, &record.p,
+                             &record.c,    &record.h,    &record.m};
+  *numbers[field] = not_a_number;
+  sphmbs::particles::store_record<2>(fluid.particles().records(), i, record);
+  return what_fails([&] { fluid.rates(0); }).text;
+}
+
+}  // namespace
+
+TEST_CASE("a NaN that only neighbours see is told of the particle that has it", "[sph][fault]") {
+  test::Random random(14);
+  for (int trial = 0; trial < 210; ++trial) {
+    const auto id = static_cast<std::uint32_t>(random.between(0, 323.99));
+    CAPTURE(trial, id);
+    std::string first;
+    for (const int threads : {1, 2, 4}) {
+      if (threads > 1 && trial % 5 != 0) continue;
+      const test::Threads some(threads);
+      const std::string text = seen_by_others(trial % 7, id);
+      if (threads == 1) first = text;
+      REQUIRE(text == first);
+    }
+    REQUIRE_THAT(first, Contains("gas particle #" + std::to_string(id) + " "));
+    if (trial % 7 == 6) REQUIRE_THAT(first, Contains("mass not finite"));
+  }
+}
+
 TEST_CASE("an infinite number is found as a NaN is", "[sph][fault]") {
   for (const std::string& field : fields) {
     CAPTURE(field);
@@ -153,6 +190,23 @@ TEST_CASE("each way to be unphysical has its name", "[sph][fault]") {
   CHECK(injected("energy", 5, -1e4).id == "E303");
   CHECK(injected("energy", 5, 0).id == "E303");
   CHECK(injected("smoothing length", 5, -0.1).id == "E304");
+}
+
+TEST_CASE("what is not physical is found before any neighbour sees it", "[sph][fault]") {
+  const int field = GENERATE(0, 1, 2);
+  Fluid fluid = some_fluid();
+  const auto y = fluid.particles().fields();
+  double* const fields_of_5[] = {&y.rho[5], &y.e[5], &y.h[5]};
+  *fields_of_5[field] *= -1;
+  const Said said = what_fails([&] { fluid.stage(0, 0); });
+  CHECK(said.id == std::array{"E302", "E303", "E304"}[static_cast<std::size_t>(field)]);
+}
+
+TEST_CASE("a stage so far ahead that particles could pass unseen is refused", "[sph][fault]") {
+  Fluid fluid = some_fluid();
+  fluid.stage(0, 0);
+  fluid.rates(0);
+  CHECK(what_fails([&] { fluid.stage(0, 1); }).id == "E307");
 }
 
 TEST_CASE("an update that would not be physical is not made", "[sph][fault]") {
@@ -186,6 +240,31 @@ TEST_CASE("an update that would not be physical is not made", "[sph][fault]") {
   CHECK(fluid.statistics().steps == 1);
 }
 
+TEST_CASE("density and smoothing length do not collapse within one step", "[sph][fault]") {
+  const bool of_h = GENERATE(false, true);
+  Fluid fluid = some_fluid();
+  fluid.stage(0, 0);
+  fluid.rates(0);
+  const double dt = sphmbs::sph::step_limit(fluid.survey(), 0.25).dt;
+  const auto y = fluid.particles().fields();
+  const auto rates = fluid.particles().rates();
+  (of_h ? rates.h : rates.rho)[5] = -0.99 * (of_h ? y.h : y.rho)[5] / dt;
+  const Said said = what_fails([&] { fluid.commit(dt, dt); });
+  CHECK(said.id == "E302");
+  CHECK_THAT(said.text, Contains("collapses within one step"));
+}
+
+TEST_CASE("of several particles that are sick the one with the lowest id is named",
+          "[sph][fault]") {
+  for (const int threads : {1, 4}) {
+    const test::Threads some(threads);
+    Fluid fluid = some_fluid();
+    for (const std::uint32_t id : {300u, 10u, 200u})
+      fluid.particles().fields().rho[place_of(fluid, id)] = not_a_number;
+    CHECK(what_fails([&] { step(fluid); }).particles == std::vector<std::uint32_t>{10});
+  }
+}
+
 TEST_CASE("a step goes on after one that was undone as if that had not been", "[sph][fault]") {
   Fluid straight = some_fluid(), disturbed = some_fluid();
   for (int k = 0; k < 10; ++k) {
@@ -196,7 +275,14 @@ TEST_CASE("a step goes on after one that was undone as if that had not been", "[
           NumericalFailure);
       disturbed.undo();
     }
+    if (k % 4 == 2) {  // a long one, with lists of its own
+      disturbed.stage(0, 0);
+      disturbed.rates(0);
+      disturbed.stage(0, 8 * sphmbs::sph::step_limit(disturbed.survey(), 0.25).dt);
+      disturbed.undo();
+    }
     step(disturbed);
+    CHECK(disturbed.survey().pairs == straight.survey().pairs);
   }
   const auto a = test::state_of(straight), b = test::state_of(disturbed);
   double off = 0;
@@ -287,6 +373,38 @@ TEST_CASE("ten particles at one point go on, ten thousand are refused by name", 
   const Said said = what_fails([&] { step(crowded); });
   CHECK(said.id == "E311");
   CHECK_THAT(said.text, Contains("particle #0 has ") && Contains("8192"));
+}
+
+TEST_CASE("two particles at one point push each other with finite, opposite forces",
+          "[sph][fault]") {
+  auto cloud = test::disordered_cloud<2>(18, spacing, 71);
+  const std::uint32_t one = 100, other = 101;
+  cloud.r[other] = cloud.r[one];
+  const bool alike = GENERATE(false, true);
+  if (alike) {
+    for (auto* field : {&cloud.rho, &cloud.p, &cloud.h, &cloud.m}) (*field)[other] = (*field)[one];
+    cloud.v[other] = cloud.v[one];
+  }
+  Fluid fluid({}, test::cube<2>(side, true), cloud);
+  fluid.stage(0, 0);
+  fluid.rates(0);
+  const auto rates = test::rates_by_id(fluid);
+  sphmbs::Vec<2> sum{};
+  double size = 0;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    for (const double x : {rates.v[i][0], rates.v[i][1], rates.rho[i], rates.e[i], rates.h[i]})
+      REQUIRE(std::isfinite(x));
+    sum += cloud.m[i] * rates.v[i];
+    size += cloud.m[i] * std::sqrt(norm2(rates.v[i]));
+  }
+  CHECK(std::sqrt(norm2(sum)) < 1e-12 * size);
+  // What is the same in all its numbers feels the same: nothing between the two prefers one.
+  if (alike) {
+    CHECK(rates.v[one][0] == Approx(rates.v[other][0]).epsilon(1e-12));
+    CHECK(rates.v[one][1] == Approx(rates.v[other][1]).epsilon(1e-12));
+    CHECK(rates.e[one] == Approx(rates.e[other]).epsilon(1e-12));
+  }
+  for (int k = 0; k < 5; ++k) step(fluid);
 }
 
 TEST_CASE("a single particle and none are no surprise", "[sph][fault]") {

@@ -90,6 +90,41 @@ TEST_CASE("the n-th call on a checkpoint fails: no effect, or the next one serve
     }
 }
 
+TEST_CASE("no failure on the way to a checkpoint's name goes unnoticed", "[fault]") {
+  struct Failure {
+    const char* call;
+    int at, error;
+    const char* said = "";
+  };
+  const test::Scratch scratch;
+  const fs::path straight = scratch.work() / "straight", folder = scratch.work() / "run";
+  REQUIRE(run(scratch, {"--output", straight.string()}).code == 0);
+  // Of fsync and close every second call is on the folder, whose close tells nothing. A byte that
+  // the disk changes shows when the file is read again.
+  for (const Failure& f : {Failure{"fsync", 1, EIO, ".ckpt: "},
+                           {"fsync", 2, EIO},
+                           {"fsync", 9, EIO},
+                           {"close", 1, EIO},
+                           {"close", 9, EIO},
+                           {"rename", 1, EIO},
+                           {"rename", 5, EIO},
+                           {"write", 20, -1}}) {
+    CAPTURE(f.call, f.at);
+    fs::remove_all(folder);
+    const Ended ended = run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+                            {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                             {"FAIL_IN", (folder / "checkpoint").string()},
+                                             {"FAIL_CALL", f.call},
+                                             {"FAIL_AT", std::to_string(f.at)},
+                                             {"FAIL_WITH", std::to_string(f.error)}}});
+    INFO(ended.log);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.log, Catch::Contains("checkpoint not written") && Catch::Contains(f.said));
+    CHECK(test::differences(straight, folder) == "");
+    check_checkpoints(scratch, folder);
+  }
+}
+
 TEST_CASE("a folder for checkpoints that goes away is told of, and ends the run in the end",
           "[fault]") {
   const test::Scratch scratch;
@@ -174,6 +209,24 @@ TEST_CASE("a damaged checkpoint gives way to the one before, which is said", "[f
   CHECK_THAT(ended.log, Catch::Contains("checksum of section") && Catch::Contains("skipped") &&
                             Catch::Contains("step 10"));
   CHECK(test::differences(straight, folder) == "");
+}
+
+TEST_CASE("going on from an older checkpoint puts the newer ones aside", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  const auto go = [&](const Words& more) {
+    Words words{"--output", folder.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ended ended = run(scratch, words);
+    INFO(ended.log);
+    REQUIRE(ended.code == 0);
+    return ended.log;
+  };
+  go({"--steps", "10"});
+  go({"--steps", "20", "--resume"});
+  const fs::path older = folder / "checkpoint" / "step_00000000000000000010.ckpt";
+  go({"--steps", "12", "--resume", older.string()});
+  CHECK_THAT(go({"--resume"}), Catch::Contains("resumed") && Catch::Contains("step 12,"));
 }
 
 TEST_CASE("memory that is not enough ends a run with exit code 6", "[fault]") {

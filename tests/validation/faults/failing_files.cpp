@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Preloaded into a program, makes the n-th call of write, fsync, close or rename on files below the
 // folder FAIL_IN fail: n is FAIL_AT, the error FAIL_WITH, where 0 means half of what was to be
-// written. Locks fail with the error FAIL_FLOCK, where that is given.
+// written, -1 that another byte is, and -2 that it takes ten seconds. With FAIL_CALL only calls of
+// that function count. Locks fail with the error FAIL_FLOCK, where that is given.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include <dlfcn.h>
 #include <sys/file.h>
@@ -35,8 +37,10 @@ bool is_below(int file) {
   return is_below(path);
 }
 
-/// Counts a call, and whether it is the one to fail.
-bool fails() {
+/// Counts a call of a function, and whether it is the one to fail.
+bool fails(std::string_view call) {
+  const char* only = std::getenv("FAIL_CALL");
+  if (only != nullptr && call != only) return false;
   const char* at = std::getenv("FAIL_AT");
   return at != nullptr && ++calls == std::atoi(at);
 }
@@ -56,18 +60,26 @@ int failed() {
 extern "C" {
 
 ssize_t write(int file, const void* data, size_t size) {
-  const bool fail = is_below(file) && fails();
-  if (fail && error_number() != 0) return failed();
-  return real(write, "write")(file, data, fail && size > 1 ? size / 2 : size);
+  const bool fail = is_below(file) && fails("write");
+  if (fail && error_number() == -2)
+    for (unsigned left = 10; left > 0;) left = ::sleep(left);
+  if (fail && error_number() == -1 && size > 0) {
+    std::string other(static_cast<const char*>(data), size);
+    other[size / 2] = static_cast<char>(other[size / 2] ^ 1);
+    return real(write, "write")(file, other.data(), size);
+  }
+  if (fail && error_number() > 0) return failed();
+  return real(write, "write")(file, data,
+                              fail && error_number() == 0 && size > 1 ? size / 2 : size);
 }
 
 int fsync(int file) {
-  if (is_below(file) && error_number() != 0 && fails()) return failed();
+  if (is_below(file) && error_number() != 0 && fails("fsync")) return failed();
   return real(fsync, "fsync")(file);
 }
 
 int close(int file) {
-  const bool fail = error_number() != 0 && is_below(file) && fails();
+  const bool fail = error_number() != 0 && is_below(file) && fails("close");
   const int result = real(close, "close")(file);
   return fail ? failed() : result;
 }
@@ -80,7 +92,7 @@ int flock(int file, int operation) noexcept {
 }
 
 int rename(const char* from, const char* to) noexcept {
-  if (is_below(to) && error_number() == EIO && fails()) return failed();
+  if (is_below(to) && error_number() == EIO && fails("rename")) return failed();
   return real(rename, "rename")(from, to);
 }
 }

@@ -10,6 +10,8 @@
 
 #include <sys/stat.h>
 
+#include <sphmbs/io/checkpoint_file.hpp>
+
 #include "support/catch.hpp"
 #include "support/process.hpp"
 #include "support/program.hpp"
@@ -54,6 +56,14 @@ class Runs {
     CHECK(test::differences(scratch_.work() / "straight", folder()) == "");
   }
 
+  /// What has its final name is whole.
+  void check_names() const {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder() / "checkpoint", none))
+      if (entry.path().extension() == ".ckpt")
+        CHECK_NOTHROW(sphmbs::io::CheckpointFile(entry.path()));
+  }
+
   void clear() {
     fs::remove_all(folder());
     fs::remove(scratch_.path() / "log");
@@ -84,6 +94,7 @@ TEST_CASE("killed at any time, a run goes on from a checkpoint that is whole", "
     sleep(1e-3 * static_cast<double>(random() % 300));
     process.signal(SIGKILL);
     CHECK(process.wait() == 128 + SIGKILL);
+    runs.check_names();
     runs.finish();
   }
 }
@@ -110,10 +121,17 @@ TEST_CASE("asked to end, a run saves its state within a step and says how to go 
 TEST_CASE("asked to end twice, a run ends at once", "[fault]") {
   Runs runs;
   runs.clear();
-  // The first SIGINT is noted while checkpoints are written, the second one ends that.
-  test::Process process = runs.start({"--checkpoint-every", "1e-6"});
-  REQUIRE(test::wait_until([&] { return runs.begun(); }));
+  // The first SIGINT is noted while the disk takes its time, the second one ends that.
+  test::Process process =
+      runs.start({"--checkpoint-every", "1e-6"},
+                 {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                  {"FAIL_IN", (runs.folder() / "checkpoint").string()},
+                                  {"FAIL_AT", "300"},
+                                  {"FAIL_WITH", "-2"}}});
+  REQUIRE(test::wait_until([&] { return fs::exists(runs.folder() / "checkpoint"); }));
+  sleep(1.0);
   process.signal(SIGINT);
+  sleep(0.05);
   process.signal(SIGINT);
   const auto asked = std::chrono::steady_clock::now();
   CHECK(process.wait() == 128 + SIGINT);

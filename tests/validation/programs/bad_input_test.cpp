@@ -97,13 +97,13 @@ void check_refused(const test::Scratch& scratch, const Program& program, const W
 
 }  // namespace
 
-TEST_CASE("the programs refuse bad options and write nothing", "[programs]") {
+TEST_CASE("the programs refuse bad options and write nothing", "[programs][fault]") {
   const test::Scratch scratch;
   for (const Program& program : programs)
     for (const Row& row : rows(program.gas)) check_refused(scratch, program, row.words, row.said);
 }
 
-TEST_CASE("the programs refuse what does not fit their case", "[programs]") {
+TEST_CASE("the programs refuse what does not fit their case", "[programs][fault]") {
   const test::Scratch scratch;
   const Program& cylinder = programs[0];
   const Program& cavity = programs[1];
@@ -121,7 +121,8 @@ TEST_CASE("the programs refuse what does not fit their case", "[programs]") {
                 {"--measure hencky", "green, engineering"});
 }
 
-TEST_CASE("the programs refuse a folder of results they cannot or may not fill", "[programs]") {
+TEST_CASE("the programs refuse a folder of results they cannot or may not fill",
+          "[programs][fault]") {
   const test::Scratch scratch;
   std::ofstream(scratch.work() / "file") << "mine";
   fs::create_directory(scratch.work() / "full");
@@ -153,7 +154,7 @@ TEST_CASE("the programs refuse a folder of results they cannot or may not fill",
                     {"file", "full", "full/mine", "locked"});
 }
 
-TEST_CASE("a program says where in its parameter file every mistake is", "[programs]") {
+TEST_CASE("a program says where in its parameter file every mistake is", "[programs][fault]") {
   const test::Scratch scratch;
   std::ofstream(scratch.work() / "case.toml") << "[run]\nspacing = -1\ncfll = 0.3\n\n[pipe]\n"
                                                  "size = [100, 50, 3]\n";

@@ -77,7 +77,7 @@ TEST_CASE("a fixed step that is too long is divided, or refused with its limit",
     CHECK_THAT(refused.err, Catch::Contains(part));
 }
 
-TEST_CASE("results do not depend on back end and threads", "[programs]") {
+TEST_CASE("results do not depend on back end and threads", "[programs][fault]") {
   struct Case {
     const char* program;
     Words words;

@@ -76,7 +76,8 @@ void check(const Setup<Dim, Motion>& setup) {
 
 }  // namespace
 
-TEST_CASE("a pipe with walls and a cylinder has the same bits on any threads", "[determinism]") {
+TEST_CASE("a pipe with walls and a cylinder has the same bits on any threads",
+          "[determinism][fault]") {
   const double dx = 1;
   const sphmbs::geometry::Box<2> pipe{.lower = {0, 0}, .upper = {100, 50}};
   const sphmbs::geometry::Box<2> between{.lower = {-100, 0}, .upper = {200, 50}};
@@ -92,7 +93,7 @@ TEST_CASE("a pipe with walls and a cylinder has the same bits on any threads", "
   check(setup);
 }
 
-TEST_CASE("a cavity with moving walls has the same bits on any threads", "[determinism]") {
+TEST_CASE("a cavity with moving walls has the same bits on any threads", "[determinism][fault]") {
   const double dx = 0.05;
   const sphmbs::geometry::Box<2> cavity{.lower = {-0.5, -0.5}, .upper = {0.5, 0.5}};
   const sphmbs::geometry::Lattice<2> lattice{.spacing = dx,
@@ -107,14 +108,14 @@ TEST_CASE("a cavity with moving walls has the same bits on any threads", "[deter
   check(setup);
 }
 
-TEST_CASE("a shock tube has the same bits on any threads", "[determinism]") {
+TEST_CASE("a shock tube has the same bits on any threads", "[determinism][fault]") {
   const sphmbs::examples::SodTube<1> tube(0.5 / 712);
   Setup<1> setup{.domain = tube.domain(), .cloud = {}};
   tube.fill(setup.cloud);
   check(setup);
 }
 
-TEST_CASE("a periodic box in 3D has the same bits on any threads", "[determinism]") {
+TEST_CASE("a periodic box in 3D has the same bits on any threads", "[determinism][fault]") {
   const double dx = 0.1;
   const Setup<3> setup{.domain = test::cube<3>(12 * dx, true),
                        .cloud = test::disordered_cloud<3>(12, dx, 31)};

@@ -157,7 +157,7 @@ void check_ball(const Coupling& coupling) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("restored gas goes on to the bit: periodic, 1D to 3D", "[restart]",
+TEMPLATE_LIST_TEST_CASE("restored gas goes on to the bit: periodic, 1D to 3D", "[restart][fault]",
                         test::Policies) {
   check_gas<TestType>(test::cube_setup<test::Gas<1>>(60));
   check_gas<TestType>(test::cube_setup<sph::SmoothScheme<2, sph::Newtonian>>(20));
@@ -165,14 +165,14 @@ TEMPLATE_LIST_TEST_CASE("restored gas goes on to the bit: periodic, 1D to 3D", "
 }
 
 TEMPLATE_LIST_TEST_CASE(
-    "restored gas goes on to the bit: walls, thin plate, moving walls, openings", "[restart]",
-    test::Policies) {
+    "restored gas goes on to the bit: walls, thin plate, moving walls, openings",
+    "[restart][fault]", test::Policies) {
   check_gas<TestType>(test::channel_setup<sph::SmoothScheme<2>>());
   check_gas<TestType>(test::cavity_setup());
   check_gas<TestType>(test::stream_setup());
 }
 
-TEMPLATE_TEST_CASE("restored bodies go on to the bit, along a sliding joint", "[restart]",
+TEMPLATE_TEST_CASE("restored bodies go on to the bit, along a sliding joint", "[restart][fault]",
                    mbs::solvers::SparseLU, mbs::solvers::SparseLDLT) {
   using System = Sliding<TestType>;
   const auto run = [&](const mbs::GeneralizedAlpha& integrator, int steps) {
@@ -184,7 +184,7 @@ TEMPLATE_TEST_CASE("restored bodies go on to the bit, along a sliding joint", "[
   run({.spectral_radius = 0.8, .accuracy = 1e-6}, 200);
 }
 
-TEST_CASE("a restored body in gas goes on to the bit", "[restart]") {
+TEST_CASE("a restored body in gas goes on to the bit", "[restart][fault]") {
   check_ball(coupling::Staggered<>{});
   check_ball(coupling::Strong<>{});
 }

@@ -70,7 +70,7 @@ Outcome hold(const Gas& gas, bool shielded, double until) {
 
 }  // namespace
 
-TEST_CASE("a thin plate holds a pressure difference for a second", "[verification][slow]") {
+TEST_CASE("a thin plate holds a pressure difference for a second", "[verification][slow][fault]") {
   for (const double background : {0.0, 1e4}) {
     const auto end = hold(
         sphmbs::sph::SmoothScheme<2>{.eos = {.gamma = 1.4}, .background = background}, true, 1);
@@ -81,7 +81,7 @@ TEST_CASE("a thin plate holds a pressure difference for a second", "[verificatio
   }
 }
 
-TEST_CASE("a plate of one layer that both sides see leaks", "[verification]") {
+TEST_CASE("a plate of one layer that both sides see leaks", "[verification][fault]") {
   const auto end = hold(sphmbs::sph::PaperScheme<2>{.eos = {.gamma = 1.4}}, false, 0.1);
   CHECK(std::abs(end.difference) < 500);  // measured: 157 Pa
 }
