@@ -19,8 +19,8 @@ std::string sentence(std::string_view name, std::string_view value, const std::s
 }  // namespace
 
 RefusedValue::RefusedValue(std::string_view parameter, std::string_view given,
-                           const std::string& reason, std::string_view id)
-    : InvalidInput(sentence(parameter, given, reason), id),
+                           const std::string& reason, std::string_view message)
+    : InvalidInput(sentence(parameter, given, reason), message),
       name(parameter),
       value(given),
       why(reason) {}

@@ -120,7 +120,7 @@ struct Program {
 struct RefusedValue : InvalidInput {
   /// @param id  the heading in docs/messages.md
   RefusedValue(std::string_view parameter, std::string_view given, const std::string& reason,
-               std::string_view id = "E023");
+               std::string_view message = "E023");
 
   std::string name;   // key or option
   std::string value;  // as it was given, or nearly
