@@ -176,7 +176,7 @@ TEST_CASE("a fixed step that is divided is ended before a run stops", "[fault]")
     sleep(1e-3 * wait);
     process.signal(SIGTERM);
     CHECK(process.wait() == 128 + SIGTERM);
-    CHECK_THAT(runs.log(), Catch::Contains("go on with --resume"));
+    CHECK_THAT(runs.log(), Catch::Contains("go on with ") && Catch::Contains(" --resume "));
     test::Process last = runs.start({"--step", "2e-3", "--resume"});
     const int code = last.wait();
     INFO(runs.log());
