@@ -28,8 +28,9 @@ class PvdCollection {
     write();
   }
 
-  /// For a list that a checkpoint restores: an earlier one on disk is left alone until then.
+  /// Of a list that a checkpoint restores.
   struct Restored {};
+  /// An earlier list on disk is left alone until the checkpoint restores this one.
   PvdCollection(std::filesystem::path path, Restored) : path_(std::move(path)) {}
 
   /// Appends a file at physical time `time` [s] and rewrites the list. `relative_file` is relative
