@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -61,6 +62,16 @@ std::string in_use(const fs::path& file) {
   return "is in use by " + owner(file) + "; wait for its end or choose another directory";
 }
 
+/// Whether all of a text could be written; if not, errno says why.
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ::ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 /// Whether another run holds the lock of a directory.
 bool is_locked(const fs::path& directory) {
   const int descriptor = ::open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC);
@@ -104,10 +115,7 @@ void OutputLock::acquire(const fs::path& directory) {
   } while (!is_named(descriptor_, file));
   file_ = file;
   const std::string line = "process " + std::to_string(::getpid()) + " on " + host() + "\n";
-  if (::ftruncate(descriptor_, 0) != 0 ||
-      ::write(descriptor_, line.data(), line.size()) != static_cast<::ssize_t>(line.size())) {
-    fail();
-  }
+  if (::ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, line)) fail();
 }
 
 void OutputLock::release() {

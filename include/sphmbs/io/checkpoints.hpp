@@ -56,14 +56,16 @@ class Checkpoints {
   /// Writes the checkpoint of a step.
   /// @param show  called as show(StateWriter&)
   /// @return its path
-  /// @throws OutputError with path and reason, RefusedCheckpoint if what was written cannot be read
-  ///         again: earlier checkpoints are then untouched.
+  /// @throws OutputError with path and reason, also where there is less room than the newest one
+  ///         takes, RefusedCheckpoint if what was written cannot be read again: earlier checkpoints
+  ///         are then untouched.
   template <class Show>
   std::filesystem::path write(std::uint64_t step, const Identity& identity, const Show& show) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error) throw OutputError("cannot create " + folder_.string() + ": " + error.message());
     const std::filesystem::path path = folder_ / name_of(step);
+    require_room(path);
     CheckpointFileWriter file(path);
     StateWriter archive(file);
     Identity belongs = identity;
@@ -130,6 +132,18 @@ class Checkpoints {
   static constexpr const char* extension = ".ckpt";  ///< of their names
 
  private:
+  // For as much as the newest checkpoint takes.
+  void require_room(const std::filesystem::path& path) const {
+    const auto all = list();
+    std::error_code unknown;
+    const auto needed = all.empty() ? 0 : std::filesystem::file_size(all.front(), unknown);
+    const auto room = std::filesystem::space(folder_, unknown);
+    if (!unknown && room.available < needed)
+      throw OutputError("cannot write " + path.string() + ": it needs about " +
+                        std::to_string(needed) + " bytes, and " + std::to_string(room.available) +
+                        " are free");
+  }
+
   // Twenty digits, so that names sort as numbers.
   static std::string name_of(std::uint64_t step) {
     const std::string number = std::to_string(step);

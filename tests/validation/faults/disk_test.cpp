@@ -90,6 +90,45 @@ TEST_CASE("the n-th call on a checkpoint fails: no effect, or the next one serve
     }
 }
 
+TEST_CASE("less room than the last checkpoint took is noticed before the next one is written",
+          "[fault]") {
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "run";
+  const Ended ended =
+      run(scratch, {"--output", folder.string(), "--checkpoint-every", "1e-6"},
+          {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES}, {"FAIL_ROOM", "1"}}});
+  INFO(ended.log);
+  CHECK(ended.code == 5);
+  CHECK_THAT(ended.log, Catch::Contains("it needs about ") && Catch::Contains(" are free"));
+  check_checkpoints(scratch, folder);
+}
+
+TEST_CASE("a failed write of any file of results is told of, or has no effect", "[fault]") {
+  const test::Scratch scratch;
+  const fs::path straight = scratch.work() / "straight", folder = scratch.work() / "run";
+  REQUIRE(run(scratch, {"--output", straight.string()}).code == 0);
+  int told = 0;
+  for (const int error : {0, EINTR, EIO, ENOSPC})
+    for (int at = 1; at <= 15; ++at) {
+      CAPTURE(error, at);
+      fs::remove_all(folder);
+      const Ended ended = run(scratch, {"--output", folder.string()},
+                              {.environment = {{"LD_PRELOAD", SPHMBS_FAILING_FILES},
+                                               {"FAIL_IN", folder.string()},
+                                               {"FAIL_CALL", "write"},
+                                               {"FAIL_AT", std::to_string(at)},
+                                               {"FAIL_WITH", std::to_string(error)}}});
+      INFO(ended.log);
+      const bool is_told = ended.log.find("not written") != std::string::npos;
+      if (error == 0 || error == EINTR) CHECK(ended.code == 0);
+      if (ended.code == 0 && !is_told) CHECK(test::differences(straight, folder) == "");
+      if (ended.code != 0)
+        CHECK((ended.code == 5 && ended.log.find("error E5") != std::string::npos));
+      told += ended.code == 5 || is_told;
+    }
+  CHECK(told > 5);
+}
+
 TEST_CASE("no failure on the way to a checkpoint's name goes unnoticed", "[fault]") {
   struct Failure {
     const char* call;

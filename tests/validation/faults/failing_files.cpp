@@ -2,7 +2,8 @@
 // Preloaded into a program, makes the n-th call of write, fsync, close or rename on files below the
 // folder FAIL_IN fail: n is FAIL_AT, the error FAIL_WITH, where 0 means half of what was to be
 // written, -1 that another byte is, and -2 that it takes ten seconds. With FAIL_CALL only calls of
-// that function count. Locks fail with the error FAIL_FLOCK, where that is given.
+// that function count. Locks fail with the error FAIL_FLOCK, and FAIL_ROOM blocks are free on every
+// disk, where those are given.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -11,7 +12,9 @@
 
 #include <dlfcn.h>
 #include <sys/file.h>
+#include <sys/statvfs.h>
 #include <sys/types.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 namespace {
@@ -73,6 +76,13 @@ ssize_t write(int file, const void* data, size_t size) {
                               fail && error_number() == 0 && size > 1 ? size / 2 : size);
 }
 
+// What streams write in pieces; half of that is its first piece.
+ssize_t writev(int file, const iovec* pieces, int count) {
+  const bool fail = is_below(file) && fails("write");
+  if (fail && error_number() > 0) return failed();
+  return real(writev, "writev")(file, pieces, fail && error_number() == 0 ? 1 : count);
+}
+
 int fsync(int file) {
   if (is_below(file) && error_number() != 0 && fails("fsync")) return failed();
   return real(fsync, "fsync")(file);
@@ -89,6 +99,13 @@ int flock(int file, int operation) noexcept {
   if (with == nullptr) return real(flock, "flock")(file, operation);
   errno = std::atoi(with);
   return -1;
+}
+
+int statvfs(const char* path, struct statvfs* about) noexcept {
+  const int result = real(statvfs, "statvfs")(path, about);
+  const char* room = std::getenv("FAIL_ROOM");
+  if (room != nullptr) about->f_bavail = std::strtoul(room, nullptr, 10);
+  return result;
 }
 
 int rename(const char* from, const char* to) noexcept {

@@ -34,6 +34,7 @@ class Runs {
     REQUIRE(ended.code == 0);
   }
 
+  fs::path straight() const { return scratch_.work() / "straight"; }
   fs::path folder() const { return scratch_.work() / "run"; }
   std::string log() const { return test::text_of(scratch_.path() / "log"); }
   bool begun() const { return fs::exists(folder() / "history.csv"); }
@@ -53,7 +54,7 @@ class Runs {
     const int code = last.wait();
     INFO(log());
     REQUIRE(code == 0);
-    CHECK(test::differences(scratch_.work() / "straight", folder()) == "");
+    CHECK(test::differences(straight(), folder()) == "");
   }
 
   /// What has its final name is whole.
@@ -86,7 +87,7 @@ void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<d
 TEST_CASE("killed at any time, a run goes on from a checkpoint that is whole", "[fault]") {
   Runs runs;
   std::mt19937 random(5);
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < 100; ++trial) {
     runs.clear();
     // Every step a checkpoint: most of the time goes into writing them.
     test::Process process = runs.start({"--checkpoint-every", "1e-6"});
@@ -102,7 +103,7 @@ TEST_CASE("killed at any time, a run goes on from a checkpoint that is whole", "
 TEST_CASE("asked to end, a run saves its state within a step and says how to go on", "[fault]") {
   Runs runs;
   std::mt19937 random(6);
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < 50; ++trial) {
     const int signal = std::array{SIGTERM, SIGINT, SIGHUP}[static_cast<std::size_t>(trial % 3)];
     runs.clear();
     test::Process process = runs.start();
@@ -147,6 +148,27 @@ TEST_CASE("SIGUSR1 saves the state and the run goes on; so it does without a rea
   CHECK(test::wait_until([&] { return fs::exists(runs.folder() / "checkpoint"); }));
   CHECK(process.wait() == 0);
   runs.finish();
+}
+
+TEST_CASE("a sleep, a German user's locale, private files and odd names change no result",
+          "[fault]") {
+  Runs runs;
+  const test::Scratch scratch;
+  const fs::path folder = scratch.work() / "a run \u00fcber 'Nacht'";
+  Words words = options;
+  words.insert(words.end(), {"--output", folder.string()});
+  const ::mode_t usual = ::umask(077);
+  test::Process process(program, words, scratch.path() / "log",
+                        {.environment = {{"LC_ALL", "de_DE.UTF-8"}, {"LANG", "de_DE.UTF-8"}}});
+  ::umask(usual);
+  CHECK(test::wait_until([&] { return fs::exists(folder / "history.csv"); }));
+  process.signal(SIGSTOP);
+  sleep(0.5);
+  process.signal(SIGCONT);
+  const int code = process.wait();
+  INFO(test::text_of(scratch.path() / "log"));
+  CHECK(code == 0);
+  CHECK(test::differences(runs.straight(), folder) == "");
 }
 
 TEST_CASE("a file named stop and the time on the clock end a run with a checkpoint", "[fault]") {
