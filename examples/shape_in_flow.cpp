@@ -152,8 +152,8 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
                        .distance = length},
                       lattice.points(zone, domain), {dx});
   }
-  Gas gas{.eos = {.gamma = 1.4}};
-  gas.background = stream.p;
+  // Without a background pressure: its gas would leave empty space behind blunt shapes.
+  const Gas gas{.eos = {.gamma = 1.4}};
   sph::Fluid<Gas, Policy, boundary::Fixed, T> fluid(gas, domain, std::move(cloud), {}, policy);
 
   const std::string name = dim == 2 ? "shape_in_flow" : "shape_in_flow_3d";
@@ -169,6 +169,15 @@ void shape_in_flow(const examples::Settings& settings, const Flow& flow, Policy 
   session.record("drag_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[0]; });
   session.record("lift_coefficient", "-", [&] { return 2 * fluid.force_on(surface)[1]; });
   session.run(time::PredictorCorrector{}, *settings.samples, *settings.fields);
+  const examples::History& history = session.history();
+  session.curves(
+      "history", session.title(),
+      {{.title = "force of the gas by 1/2 rho v^2 1 m" + std::string(dim == 2 ? "" : "^2"),
+        .x_label = "t [s]",
+        .y_label = "coefficient [-]",
+        .curves = {history.curve("drag_coefficient", "drag"),
+                   history.curve("lift_coefficient", "lift")}}},
+      1);
   session.finish();
 }
 
