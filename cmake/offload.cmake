@@ -21,7 +21,9 @@ function(sphmbs_offload policy)
     -foffload-options=nvptx-none=-misa=sm_80 -foffload-options=nvptx-none=-lm
     -foffload-options=nvptx-none=-latomic -foffload-options=nvptx-none=-fcf-protection=none -no-pie)
   set(loop "#pragma acc parallel loop gang vector reduction(+:s)")
-  set(link "")
+  # GCC registers device code of every program with its runtime, which linkers leave out where nothing
+  # else calls it.
+  set(link -Wl,--push-state,--no-as-needed,-lgomp,--pop-state)
   set(definitions "")
   if(policy STREQUAL "cuda")
     _sphmbs_cuda()
