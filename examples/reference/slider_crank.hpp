@@ -39,20 +39,27 @@ struct SliderCrankMotion {
            slider_mass * x * x;
   }
 
-  /// The motion at a time [s], by the classical Runge-Kutta method with steps of at most 1e-4 s, to
-  /// eleven digits.
-  State at(double t) const {
-    const auto rate = [this](double u) { return std::sqrt(torque / (2 * inertia(u * u))); };
-    const int steps = static_cast<int>(std::ceil(t / 1e-4));
-    const double h = steps > 0 ? t / steps : 0;
-    double u = 0;
+  /// The root u of the angle at a time, from what it was at an earlier one [s], by the classical
+  /// Runge-Kutta method with steps of at most 1e-4 s, to eleven digits.
+  double root(double u, double from, double to) const {
+    const auto rate = [this](double x) { return slope(x); };
+    const int steps = static_cast<int>(std::ceil((to - from) / 1e-4));
+    const double h = steps > 0 ? (to - from) / steps : 0;
     for (int k = 0; k < steps; ++k) {
       const double k1 = rate(u), k2 = rate(u + h / 2 * k1), k3 = rate(u + h / 2 * k2),
                    k4 = rate(u + h * k3);
       u += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
-    return {u * u, 2 * u * rate(u), slider_at(u * u)};
+    return u;
   }
+
+  /// The motion where the root of the angle is u.
+  State state(double u) const { return {u * u, 2 * u * slope(u), slider_at(u * u)}; }
+  /// The motion at a time [s].
+  State at(double t) const { return state(root(0, 0, t)); }
+
+ private:
+  double slope(double u) const { return std::sqrt(torque / (2 * inertia(u * u))); }
 };
 
 /// The same motion by another code, which solved the equation of the second order for the angle

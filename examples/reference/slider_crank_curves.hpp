@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sphmbs/mbs/ncf/readout.hpp>
@@ -20,11 +21,11 @@ template <class System, class Crank, class Slider>
 void trace_slider_crank(Session<System>& session, const Crank& crank, const Slider& slider) {
   System& system = session.system();
   const auto arm = crank.vector(crank.part.start(), crank.part.end());
-  session.trace("angle", "rad", [&system, arm, last = 0.0]() mutable {
+  session.trace("angle", "rad", [&session, &system, arm] {
     const auto u = arm.at(system.state().q);
+    const std::vector<double>& earlier = session.traces().of("angle");
     const double turn = 2 * std::numbers::pi, angle = std::atan2(u[1], u[0]);
-    last = angle + turn * std::round((last - angle) / turn);
-    return last;
+    return angle + turn * std::round(((earlier.empty() ? 0 : earlier.back()) - angle) / turn);
   });
   session.trace("rate", "rad/s", [&system, arm] {
     const auto u = arm.at(system.state().q), v = arm.rate(system.state().v);
@@ -39,8 +40,10 @@ template <class System>
 void compare_with_reference(Session<System>& session, const SliderCrankMotion& exact) {
   const History& traces = session.traces();
   ReferenceCurve angle{.time = traces.time(), .value = {}}, rate = angle, slider = angle;
+  double root = 0, before = 0;
   for (const double t : traces.time()) {
-    const auto state = exact.at(t);
+    root = exact.root(root, std::exchange(before, t), t);
+    const auto state = exact.state(root);
     angle.value.push_back(state.angle);
     rate.value.push_back(state.rate);
     slider.value.push_back(state.slider);
