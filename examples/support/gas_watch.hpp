@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 
 #include <sphmbs/core/archive.hpp>
 #include <sphmbs/sph/balance.hpp>
@@ -27,12 +26,11 @@ class GasWatch {
   /// What is to be done.
   void guard(const Guards& guards) {
     constexpr double anything = std::numeric_limits<double>::infinity();
-    using Number = std::remove_cvref_t<decltype(fluid_.particles().fields().m[0])>;
     on_ = guards.balance != "off";
     sph::BalanceLimits limits;
     limits.stop.energy = guards.energy;
     limits.warn.energy = std::min(limits.warn.energy, guards.energy);
-    if (sizeof(Number) < sizeof(double)) {
+    if (sizeof(typename Fluid::NumberType) < sizeof(double)) {
       limits.warn.mass = 1e-6;
       limits.warn.momentum = 1e-3;
       limits.stop.mass = 1e-4;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <string_view>
+#include <span>
 #include <system_error>
 
 #include <fcntl.h>
@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "sphmbs/core/error.hpp"
+#include "sphmbs/io/durable_file.hpp"
 #include "support/text.hpp"
 
 namespace sphmbs::examples {
@@ -62,16 +63,6 @@ std::string in_use(const fs::path& file) {
   return "is in use by " + owner(file) + "; wait for its end or choose another directory";
 }
 
-/// Whether all of a text could be written; if not, errno says why.
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ::ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno != EINTR) return false;
-    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 /// Whether another run holds the lock of a directory.
 bool is_locked(const fs::path& directory) {
   const int descriptor = ::open((directory / lock_name).c_str(), O_RDONLY | O_CLOEXEC);
@@ -115,7 +106,9 @@ void OutputLock::acquire(const fs::path& directory) {
   } while (!is_named(descriptor_, file));
   file_ = file;
   const std::string line = "process " + std::to_string(::getpid()) + " on " + host() + "\n";
-  if (::ftruncate(descriptor_, 0) != 0 || !write_all(descriptor_, line)) fail();
+  if (::ftruncate(descriptor_, 0) != 0) fail();
+  errno = io::detail::write_all(descriptor_, std::as_bytes(std::span(line)));
+  if (errno != 0) fail();
 }
 
 void OutputLock::release() {

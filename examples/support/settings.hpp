@@ -118,7 +118,7 @@ struct Program {
 
 /// A value that does not fit the problem. guarded_main() adds where it was given.
 struct RefusedValue : InvalidInput {
-  /// @param id  the heading in docs/messages.md
+  /// @param message  id of the entry in docs/messages.md
   RefusedValue(std::string_view parameter, std::string_view given, const std::string& reason,
                std::string_view message = "E023");
 

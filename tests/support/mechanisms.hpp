@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <sphmbs/mbs.hpp>
 #include <sphmbs/mbs/joints/pinned.hpp>
@@ -82,6 +83,18 @@ std::array<double, n> runge_kutta(std::array<double, n> y, double until, int ste
     for (std::size_t i = 0; i < n; ++i) y[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
   }
   return y;
+}
+
+/// Whether a solver takes a matrix with a row and a column of zeros for a regular one.
+template <class Solver>
+bool factorises_singular_matrix() {
+  sphmbs::mbs::SparseMatrix A(2, 2);
+  A.insert(0, 0) = 1;
+  A.insert(1, 1) = 0;
+  A.makeCompressed();
+  Solver solver;
+  solver.analyse(A, std::vector<sphmbs::mbs::Role>(2, sphmbs::mbs::Role::massive));
+  return solver.factorise(A);
 }
 
 }  // namespace test
